@@ -1,14 +1,14 @@
-//! From patches of known colour in a photograph to its absolute values.
+//! From patches of known colour in a photograph to absolute values.
 //!
-//! Paper, section 5D: one polynomial of second degree per channel takes what a colour chart shows to what the
-//! scene's camera makes of it. It holds the exposure, the colour of the light as far as it is not the
-//! scene's, stray light and a bent curve. A white card is a chart of one patch. Nothing here knows pixels:
-//! patches come as means.
+//! Paper, section 5D: a second-degree polynomial per channel maps the values of a colour chart in the
+//! photograph to those of the scene's camera. It includes the exposure, a difference in the colour of the
+//! light, stray light and a non-linear curve. A white card is a chart of one patch. This module knows no
+//! pixels: patches are means.
 //!
-//! Facets are darker than most patches, so the polynomial's constant matters most, and reference values are
-//! off by a share of themselves. Plain least squares makes 2 % of error in each patch 7.5 % at 3 % of white.
-//! Here errors are relative, as large as the residuals say, and constant and curvature have priors: 2.5 %,
-//! and 0.5 % at 30 % of white (`tests/numbers/calibration.rs` measures both).
+//! Facets are darker than most patches, so the polynomial's constant matters most, and errors of reference
+//! values are relative. With plain least squares, 2 % of error in each patch becomes 7.5 % at 3 % of white.
+//! Here errors are relative, with a size inferred from the residuals, and constant and curvature have priors:
+//! 2.5 %, and 0.5 % at 30 % of white (`tests/numbers/calibration.rs` measures both).
 
 mod patch;
 mod polynomial;
@@ -18,11 +18,11 @@ use polynomial::Polynomial;
 
 use crate::error::{Error, Result};
 
-/// Mean residuals above this are no noise: a picture with an undone curve or another camera's has 0.02 to
+/// Mean residuals above this are not noise: a picture with an undone curve or another camera's has 0.02 to
 /// 0.12, patches in the wrong order 0.45 and more.
 const LARGEST_RESIDUAL: f64 = 0.25;
 
-/// What takes a photograph's values to those of the scene's camera.
+/// The map from a photograph's values to those of the scene's camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     polynomials: Vec<Polynomial>,
@@ -31,15 +31,15 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// The calibration that patches ask for.
+    /// Fits the calibration to patches.
     ///
     /// # Arguments
     /// - `patches`: one or more, all with as many channels as the camera.
     /// - `reference_channel`: the channel in which a white diffuser facing the sun is 1 at exposure 1.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if the patches do not rise with what they should be, or are off by more than a
-    /// quarter.
+    /// [`Error::Numeric`] if the patches do not increase with their expected values, or are off by more than
+    /// a quarter.
     ///
     /// # Source
     /// Deeb et al., section 5D, for the polynomial.
@@ -80,8 +80,8 @@ impl Calibration {
         Ok(calibration)
     }
 
-    /// Value of a perfect white diffuser facing the sun in the strongest channel: what the scene's camera, at
-    /// this exposure, would have shown the photograph's values.
+    /// Value of a perfect white diffuser facing the sun in the strongest channel: the exposure at which the
+    /// scene's camera would have recorded the photograph's values.
     #[must_use]
     pub fn exposure(&self) -> f64 {
         self.exposure
@@ -93,14 +93,14 @@ impl Calibration {
         self.exposure_sd
     }
 
-    /// What the scene's camera would have shown at [`Calibration::exposure`] for a value of the photograph.
-    /// Beyond the brightest patch the polynomial goes on as its tangent.
+    /// The value that the scene's camera would have recorded at [`Calibration::exposure`] for a value of the
+    /// photograph. Beyond the brightest patch the polynomial continues as its tangent.
     #[must_use]
     pub fn value(&self, channel: usize, measured: f64) -> f64 {
         self.polynomials[channel].value(measured)
     }
 
-    /// The same for a standard deviation about a value.
+    /// The same for a standard deviation around a value.
     #[must_use]
     pub fn sd(&self, channel: usize, measured: f64, sd: f64) -> f64 {
         self.polynomials[channel].slope(measured) * sd
@@ -112,7 +112,7 @@ impl Calibration {
         self.polynomials[channel].coefficients()
     }
 
-    /// How far a patch is from what it should be, a share of that per channel.
+    /// Relative deviation of a patch from its expected value, per channel.
     #[must_use]
     pub fn residual(&self, patch: &Patch) -> Vec<f64> {
         let channel = |(channel, polynomial): (usize, &Polynomial)| {

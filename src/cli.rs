@@ -1,4 +1,4 @@
-//! The frame of every tool: common flags, exit status, broken pipes, files that are whole or absent.
+//! The frame of every tool: common flags, exit status, broken pipes, complete files or none.
 
 mod generate;
 mod kernel;
@@ -114,15 +114,15 @@ impl Common {
 
 /// A tool's arguments.
 pub trait ToolArgs: Parser {
-    /// The flags that all tools have.
+    /// The flags common to all tools.
     fn common(&self) -> &Common;
 }
 
 /// Runs one tool and turns its outcome into an exit status.
 ///
 /// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but
-/// some records carry an `error`; standard error says how many, and why the first does. Nothing is said of an
-/// [empty pipe](Error::EmptyPipe).
+/// some records carry an `error`; standard error states how many, and the first reason. An [empty
+/// pipe](Error::EmptyPipe) causes no message.
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
     let done = match A::try_parse() {
         Ok(args) => without_panic(|| frame(&args, tool)),
@@ -140,7 +140,7 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
         }
         Ok(_) => ExitCode::SUCCESS,
         Err(e) if e.is_broken_pipe() => ExitCode::SUCCESS,
-        // a pipeline ends with one line, that of the tool that failed
+        // a failed pipeline prints one line, from the tool that failed
         Err(Error::EmptyPipe) => ExitCode::FAILURE,
         Err(e) => {
             say(A::command().get_name(), &e.to_string());
@@ -149,7 +149,7 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
     }
 }
 
-/// The tool between opening and finishing its output; which samples carry an error.
+/// Runs the tool between opening and finishing its output; returns the samples that carry an error.
 fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Result<Failures> {
     let common = args.common();
     start_threads(common.threads)?;
@@ -178,17 +178,17 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     }
 }
 
-/// Address space that a thread's stack takes, bytes.
+/// Address space of a thread's stack, bytes.
 const STACK: u64 = 2 << 20;
-/// What any run takes besides: with less it would end without a word, somewhere.
+/// Other memory needed by any run: with less it would abort without a message.
 const LEAST_ROOM: u64 = 32 << 20;
 
-/// Starts so many threads, else as many as the environment says, else one for each core.
+/// Starts this many threads, else as many as the environment states, else one per core.
 fn start_threads(count: Option<u16>) -> Result<()> {
     let in_environment = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|count| *count > 0);
     let all = || std::thread::available_parallelism().map_or(1, NonZero::get);
     let count = count.map(usize::from).or_else(in_environment).unwrap_or_else(all);
-    // threads that run already end the program where the stack of a later one leaves them no room
+    // running threads abort the program if the stack of a later one leaves them no memory
     let room = LEAST_ROOM + STACK * count as u64;
     room::ask(room, &format!("a run on {count} threads"), "take fewer with --threads")?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count);
@@ -218,10 +218,10 @@ fn field_and_file(text: &str) -> std::result::Result<(String, PathBuf), String> 
     }
 }
 
-/// Parses the name of a drawing, `-` being the terminal.
+/// Parses the file name of a drawing; `-` is the terminal.
 ///
 /// # Errors
-/// A message for the command line, if it ends in neither .svg nor .png.
+/// A message for the command line, if it ends neither in .svg nor in .png.
 pub fn drawing(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).as_deref() {
@@ -277,8 +277,8 @@ pub struct OpticsArgs {
     pub wavelengths_nm: WavelengthGrid,
 }
 
-/// Parses the SPEC of a light, of which a large number may be the temperature or the power of a flat
-/// spectrum.
+/// Parses the SPEC of a light; a large number is refused, because it may be a temperature or the power of a
+/// flat spectrum.
 ///
 /// # Errors
 /// Both readings, if the text is such a number.
@@ -290,8 +290,8 @@ pub struct OpticsArgs {
 /// assert_eq!(vfold::cli::light("1").as_deref(), Ok("1"));
 /// ```
 pub fn light(text: &str) -> std::result::Result<String, String> {
-    /// Nothing shines at so few kelvins, and no light is called by such a number, as D50 and D65 are by
-    /// theirs.
+    /// No body shines visibly at so low a temperature, and no illuminant is named by so small a number, as
+    /// D50 and D65 are by theirs.
     const POWER_MAX: f64 = 10.0;
     let number = text.trim();
     match number.parse() {
@@ -316,10 +316,10 @@ fn wavelengths(text: &str) -> std::result::Result<WavelengthGrid, String> {
 }
 
 impl OpticsArgs {
-    /// The one illuminant, where a tool looks at one picture.
+    /// The only illuminant, for a tool that reads one picture.
     ///
     /// # Errors
-    /// [`Error::Usage`] if there are several; `why` one is all that the tool takes.
+    /// [`Error::Usage`] if there are several; `why` explains that the tool takes only one.
     pub fn one_illuminant(&self, why: &str) -> Result<&str> {
         match self.illuminant.as_slice() {
             [] => Ok(ASSUMED_LIGHT),
@@ -328,7 +328,7 @@ impl OpticsArgs {
         }
     }
 
-    /// Refuses a light that is unknown, where a tool computes with it.
+    /// Refuses an unknown light where a tool needs it.
     ///
     /// # Errors
     /// [`Error::Usage`] if one of the illuminants is.
@@ -339,8 +339,8 @@ impl OpticsArgs {
         }
     }
 
-    /// The spectra that the flags name, on the wavelengths, with the camera of this name or file. A camera
-    /// sees nothing where it was not measured. What was converted is said as `common` asks.
+    /// The spectra that the flags name, on the wavelength grid, with this camera. A camera's sensitivity is
+    /// zero where it was not measured. Conversions are reported as `common` requires.
     ///
     /// # Errors
     /// As [`Common::illuminant`], or if an illuminant does not cover the wavelengths.
@@ -349,7 +349,7 @@ impl OpticsArgs {
         Optics::new(self.wavelengths_nm.clone(), camera, &illuminants, sky.as_ref())
     }
 
-    /// The illuminants that the flags name, none if they are unknown, and that of the sky, if it has its own.
+    /// The illuminants that the flags name, empty if unknown, and that of the sky, if different.
     ///
     /// # Errors
     /// As [`Common::illuminant`].
@@ -363,7 +363,7 @@ impl OpticsArgs {
         Ok((illuminants, self.sky()?.as_ref().map(light).transpose()?))
     }
 
-    /// The spectrum of the sky; `sky` alone goes with the sun.
+    /// The spectrum of the sky; `sky` alone belongs to the sun.
     fn sky(&self) -> Result<Option<String>> {
         match (self.sky_illuminant.as_deref(), self.illuminant.as_slice()) {
             (Some("sky"), [sun, ..]) if sun.starts_with("sun:") => Ok(Some(sun.replacen("sun:", "sky:", 1))),

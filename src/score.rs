@@ -1,7 +1,7 @@
 //! Distances between a true and an estimated reflectance spectrum.
 //!
 //! Paper section 5B: eq. (37) is [`rmse`], eq. (38) is [`pearson_distance`]. CIEDE2000, which needs an
-//! observer, is in [`crate::colorimetry`]. [`METRICS`] has a row for each metric; [`Summary`] has mean,
+//! observer, is in [`crate::colorimetry`]. [`METRICS`] has one row per metric; [`Summary`] computes mean,
 //! median and worst of many samples, [`Worst`] keeps the worst of them.
 
 mod metric;
@@ -31,8 +31,8 @@ pub fn rmse(truth: &[f64], estimate: &[f64]) -> f64 {
 
 /// The paper's "Pearson distance", eq. (38): one minus the cosine between the spectra, 0..1 for reflectances.
 ///
-/// Pearson's correlation subtracts the means first; this does not, so that two flat greys are at distance 0.
-/// Scale does not matter: exposure drops out. A spectrum of zeros has no direction: its distance is 0 to
+/// Pearson's correlation subtracts the means first; this does not, so two flat greys are at distance 0. It is
+/// independent of scale and thus of exposure. A spectrum of zeros has no direction: its distance is 0 to
 /// another one of zeros, 1 to anything else.
 ///
 /// # Panics
@@ -63,8 +63,8 @@ fn norm(spectrum: &[f64]) -> f64 {
 
 /// Goodness of fit coefficient: the cosine between the spectra, 1 for the same shape.
 ///
-/// 0.999 is called good, 0.9999 very good. One minus it is [`pearson_distance`], with which it shares what
-/// becomes of black.
+/// 0.999 is called good, 0.9999 very good. It is one minus [`pearson_distance`], including its convention for
+/// black.
 ///
 /// # Source
 /// J. Romero, A. García-Beltrán, J. Hernández-Andrés, "Linear bases for representation of natural and
@@ -85,8 +85,8 @@ pub fn goodness_of_fit(truth: &[f64], estimate: &[f64]) -> f64 {
 
 /// Angle between the spectra as vectors, degrees, 0..90 for reflectances.
 ///
-/// By half angles, which keeps the digits that the arc cosine of nearly 1 loses; black is at 0° from black,
-/// at 90° from anything else.
+/// Computed by half angles, which retain the precision that the arc cosine loses near 1; black is at 0° from
+/// black, at 90° from anything else.
 ///
 /// # Source
 /// F. A. Kruse et al., "The spectral image processing system (SIPS)", *Remote Sensing of Environment* 44
@@ -124,7 +124,7 @@ mod tests {
         assert!((pearson_distance(&a, &b) - 0.06298103800008825).abs() < 1e-15);
     }
 
-    /// The mean is not subtracted: Pearson's correlation of these is -1, its distance would be 2.
+    /// The mean is not subtracted: with Pearson's correlation, which is -1 here, the distance would be 2.
     #[test]
     fn distance_is_uncentred() {
         assert!((pearson_distance(&[0.4, 0.6], &[0.6, 0.4]) - 1.0 / 13.0).abs() < 1e-15);

@@ -1,6 +1,6 @@
 //! A patch of a chart in a photograph.
 
-/// A patch, and what it should be.
+/// A patch with its expected values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     /// The reference's name.
@@ -9,6 +9,6 @@ pub struct Patch {
     pub measured: Vec<f64>,
     /// Standard error of the mean per channel.
     pub standard_error: Vec<f64>,
-    /// What the scene's camera makes of it at exposure 1, above 0.
+    /// Value of the scene's camera at exposure 1, above 0.
     pub expected: Vec<f64>,
 }

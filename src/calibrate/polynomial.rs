@@ -1,34 +1,33 @@
-//! One channel's polynomial: the most probable one, and its covariance.
+//! One channel's polynomial: the posterior mode and its covariance.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::patch::Patch;
 use crate::error::{Error, Result};
 
-/// Standard deviation of the polynomial's constant before the picture, of the brightest patch: stray light
-/// and black level.
+/// Prior standard deviation of the polynomial's constant, relative to the brightest patch: stray light and
+/// black level.
 const OFFSET_SD: f64 = 5e-3;
-/// Standard deviation of the quadratic term at the brightest patch before the picture, of that patch.
+/// Prior standard deviation of the quadratic term at the brightest patch, relative to it.
 const CURVATURE_SD: f64 = 0.05;
-/// Relative error of a patch before the picture, worth as much as so many patches: ageing, dirt, another
-/// batch.
+/// Prior relative error of a patch, with the weight of this many patches: ageing, dirt, another batch.
 const PATCH_SD: f64 = 0.01;
 const PATCH_SD_COUNT: f64 = 2.0;
-/// The relative error settles within a few rounds.
+/// The relative error converges within a few rounds.
 const ROUNDS: usize = 20;
 
-/// A channel's polynomial, between values as shares of the brightest patch's.
+/// A channel's polynomial between values relative to the brightest patch.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Polynomial {
     terms: Vector3<f64>,
     covariance: Matrix3<f64>,
     /// The brightest patch, measured and expected.
     brightest: (f64, f64),
-    /// What the polynomial's values are multiplied by; 1 until all channels are known.
+    /// Factor of the polynomial's values; 1 until all channels are known.
     exposure: f64,
 }
 
-/// A patch in one channel: what was measured, its standard error, what was expected.
+/// A patch in one channel: measured value, its standard error, expected value.
 type Datum = (f64, f64, f64);
 
 impl Polynomial {
@@ -46,7 +45,7 @@ impl Polynomial {
             data.map(|(m, sd, e)| (m / brightest.0, sd / brightest.0, e / brightest.1)).collect();
         let (terms, covariance) = posterior(&shares).ok_or_else(falls)?;
         let polynomial = Self { terms, covariance, brightest, exposure: 1.0 };
-        // the slope is linear: positive at both ends, positive between
+        // the slope is linear: if positive at both ends, it is positive between
         if [0.0, brightest.0].iter().any(|end| polynomial.slope(*end) <= 0.0) {
             Err(falls())
         } else {
@@ -54,7 +53,7 @@ impl Polynomial {
         }
     }
 
-    /// Place on the curve up to the brightest patch, and how far beyond it.
+    /// Position on the curve up to the brightest patch, and distance beyond it.
     fn place(&self, measured: f64) -> (f64, f64) {
         let share = measured / self.brightest.0;
         (share.min(1.0), (share - 1.0).max(0.0))
@@ -71,7 +70,7 @@ impl Polynomial {
         self.exposure * self.brightest.1 / self.brightest.0 * self.terms.dot(&slopes(share))
     }
 
-    /// Light that the photograph shows for an expected 1, by the brightest patch, and its standard deviation.
+    /// Value in the photograph for an expected 1, at the brightest patch, and its standard deviation.
     pub fn gain(&self) -> (f64, f64) {
         let sum = self.terms.sum();
         let gain = self.brightest.0 / (self.brightest.1 * sum);
@@ -97,7 +96,7 @@ fn slopes(x: f64) -> Vector3<f64> {
     Vector3::new(0.0, 1.0, 2.0 * x)
 }
 
-/// Most probable polynomial and its covariance; the patches' relative error is found along with them.
+/// The most probable polynomial and its covariance; the patches' relative error is inferred with them.
 fn posterior(data: &[Datum]) -> Option<(Vector3<f64>, Matrix3<f64>)> {
     let prior = Matrix3::from_diagonal(&Vector3::new(OFFSET_SD.powi(-2), 0.0, CURVATURE_SD.powi(-2)));
     let (mut relative, mut found) = (PATCH_SD, None);

@@ -2,8 +2,8 @@
 //!
 //! J. Jiang, D. Liu, J. Gu, S. Süsstrunk, "What is the space of spectral sensitivity functions for digital
 //! color cameras?", *IEEE Workshop on Applications of Computer Vision* (2013): a few principal components
-//! hold the curves of all cameras. Here all components of the measured ones are a Gaussian prior, each as
-//! wide as the cameras are apart along it, with a little smooth variation that none of them has.
+//! describe the sensitivities of all cameras. Here all components of the measured cameras form a Gaussian
+//! prior, each with its variance, plus a small smooth variation in which no measured camera shares.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,17 +11,18 @@ use super::measured::{KnownSensitivities, known_sensitivities};
 use crate::error::{Error, Result};
 use crate::spectrum::WavelengthGrid;
 
-/// What no measured camera has: its standard deviation, of the geometric mean of a curve and its peak, and
-/// how far it reaches, nm.
+/// The variation beyond measured cameras: its standard deviation, relative to the geometric mean of a
+/// sensitivity and its peak, and its correlation length, nm.
 const OTHER_SD: f64 = 0.05;
 const OTHER_REACH_NM: f64 = 20.0;
-/// Standard deviation of a channel's scale about its first guess.
+/// Standard deviation of a channel's scale around its initial guess.
 const SCALE_SD: f64 = 0.3;
-/// Standard deviation of stray light and black level, of the brightest patch.
+/// Standard deviation of stray light and black level, relative to the brightest patch.
 const OFFSET_SD: f64 = 1e-3;
-/// Relative errors of patches among which the photograph decides: ageing, dirt, another batch, uneven light.
+/// Candidates for the patches' relative error, among which the evidence decides: ageing, dirt, another batch,
+/// uneven light.
 const PATCH_SDS: [f64; 7] = [0.002, 0.005, 0.01, 0.015, 0.02, 0.04, 0.08];
-/// Patches that are further off in the mean are not those that they are said to be.
+/// Patches with a larger mean deviation are not the stated ones.
 const LARGEST_RESIDUAL: f64 = 0.25;
 
 /// A patch of a chart in a photograph.
@@ -35,27 +36,25 @@ pub struct ChartPatch {
     pub standard_error: [f64; 3],
 }
 
-/// A camera as a chart shows it.
+/// A camera derived from a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartCamera {
-    /// Sensitivity of R, G and B per waveband, 0 or more, green's peak being 1.
+    /// Sensitivity of R, G and B per waveband, at least 0, normalised to green's peak.
     pub sensitivities: [Vec<f64>; 3],
     /// Standard deviations of these.
     pub sensitivities_sd: [Vec<f64>; 3],
-    /// Relative error of the patches that the photograph speaks for.
+    /// Relative error of the patches with the largest evidence.
     pub patch_sd: f64,
-    /// Root mean square of how far the patches are off, as shares of their values, in the channel where it is
-    /// largest.
+    /// Root mean square of the patches' relative residuals in the channel where it is largest.
     pub residual: f64,
 }
 
 impl ChartCamera {
-    /// The most probable sensitivities of the camera that saw `patches` in `light`, power per waveband of
-    /// `grid`.
+    /// The most probable sensitivities of the camera that recorded `patches` in `light`, power per waveband
+    /// of `grid`.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if a channel is dark, or the patches are off by more than a quarter from what any
-    /// camera makes of them.
+    /// [`Error::Numeric`] if a channel is dark, or the patches are off by more than a quarter for any camera.
     ///
     /// # Example
     /// ```
@@ -79,7 +78,7 @@ impl ChartCamera {
         Self::by_prior_of(&known_sensitivities(grid)?, grid, light, patches)
     }
 
-    /// The same, known cameras being these alone.
+    /// The same, with these as the only known cameras.
     ///
     /// # Errors
     /// As [`ChartCamera::new`].
@@ -144,7 +143,7 @@ impl ChartCamera {
     }
 }
 
-/// How much each waveband gives to each patch; the brightest patch has 1 in all.
+/// Contribution of each waveband to each patch; they sum to 1 for the brightest patch.
 fn views(grid: &WavelengthGrid, light: &[f64], patches: &[ChartPatch]) -> Result<DMatrix<f64>> {
     let widths_nm = grid.trapezoid_weights_nm();
     let view = |row: usize, band: usize| patches[row].reflectance[band] * light[band] * widths_nm[band];
@@ -182,7 +181,7 @@ fn residual(fitted: &DVector<f64>, measured: &DVector<f64>, patches: usize) -> f
     (0..3).map(of_channel).fold(0.0, f64::max)
 }
 
-/// What is known of cameras: R, G and B one below the other.
+/// The prior on cameras, with R, G and B stacked.
 struct Prior {
     mean: DVector<f64>,
     covariance: DMatrix<f64>,
@@ -190,7 +189,7 @@ struct Prior {
 }
 
 impl Prior {
-    /// Of these cameras, each channel's mean over the grid being 1.
+    /// From these cameras, with each channel normalised to a mean of 1 over the grid.
     fn new(known: &[KnownSensitivities], grid: &WavelengthGrid) -> Result<Self> {
         let bands = grid.len();
         if known.len() < 2 {
@@ -214,7 +213,7 @@ impl Prior {
         Err(Error::Numeric(format!("no camera sees light on {grid}; choose wavelengths within 380..780 nm")))
     }
 
-    /// The same with channels about as bright as the brightest patch says.
+    /// The same, with channels scaled to match the brightest patch.
     fn scaled(self, views: &DMatrix<f64>, brightest: &[f64; 3]) -> Self {
         let bands = self.bands;
         let factor = [0, 1, 2].map(|channel| {
@@ -232,7 +231,8 @@ impl Prior {
     }
 }
 
-/// Covariance of what no measured camera has: smooth along each curve, small where the curve is.
+/// Covariance of variation beyond the measured cameras: smooth along each sensitivity, small where the
+/// sensitivity is.
 fn other(mean: &DVector<f64>, grid: &WavelengthGrid) -> DMatrix<f64> {
     let (bands, nm) = (grid.len(), grid.wavelengths_nm());
     let peak = [0, 1, 2].map(|channel| mean.rows(channel * bands, bands).max());

@@ -1,18 +1,18 @@
-//! The cameras that were measured, on one grid and one scale.
+//! The measured cameras on one grid and scale.
 
 use crate::error::Result;
 use crate::spectrum::{MeasuredCamera, Outside, WavelengthGrid, measured_cameras, measured_sensitivities};
 
-/// A camera and its curves R, G and B on a grid, green's peak being 1.
+/// A camera and its sensitivities R, G and B on a grid, normalised to green's peak.
 #[derive(Clone, Debug)]
 pub struct KnownSensitivities {
-    /// Which camera.
+    /// The camera.
     pub camera: MeasuredCamera,
     /// One number per waveband each.
     pub sensitivities: [Vec<f64>; 3],
 }
 
-/// All 52 on `grid`; beyond 380..780 nm they see nothing.
+/// All 52 on `grid`; beyond 380..780 nm they are zero.
 ///
 /// # Errors
 /// Only if the embedded tables are damaged.
@@ -28,14 +28,14 @@ pub fn known_sensitivities(grid: &WavelengthGrid) -> Result<Vec<KnownSensitiviti
     measured_cameras().zip(measured_sensitivities()?).map(known).collect()
 }
 
-/// The curves with green's peak at 1.
+/// The sensitivities normalised to green's peak.
 #[must_use]
 pub fn on_one_scale(sensitivities: [Vec<f64>; 3]) -> [Vec<f64>; 3] {
     let peak = sensitivities[1].iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     sensitivities.map(|curve| curve.into_iter().map(|value| value / peak).collect())
 }
 
-/// Root mean square of the differences between the curves of two cameras, green's peak being 1 in both.
+/// Root mean square difference between the sensitivities of two cameras, both normalised to green's peak.
 ///
 /// # Example
 /// ```

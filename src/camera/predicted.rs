@@ -1,11 +1,11 @@
-//! Curves of a camera that nobody measured, predicted from the colour matrix of its RAW files.
+//! Sensitivities of an unmeasured camera, predicted from the colour matrix of its RAW files.
 //!
 //! A. E. Hoerl, R. W. Kennard, "Ridge regression: biased estimation for nonorthogonal problems",
-//! *Technometrics* 12 (1970), p. 55: from matrices to curves, over the measured cameras whose matrices are
-//! published (`share/make-camera-matrices.py`), with an offset that cameras of one maker share. It learns
-//! from matrices as they are published, not as they follow from the curves: those differ by more than cameras
-//! do. The matrix under illuminant A, where files have it, makes the curves no better. `benches/cameras.rs`
-//! leaves each camera out in turn.
+//! *Technometrics* 12 (1970), p. 55: from matrices to sensitivities, trained on the measured cameras whose
+//! matrices are published (`share/make-camera-matrices.py`), with an offset common to cameras of one maker.
+//! It is trained on published matrices rather than matrices computed from the sensitivities, which differ
+//! from them by more than cameras do. The matrix under illuminant A, if present, does not improve the
+//! prediction. `benches/cameras.rs` leaves each camera out in turn.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -15,72 +15,71 @@ use crate::error::{Error, Result};
 use crate::solve::Eigen;
 use crate::spectrum::{MeasuredCamera, WavelengthGrid, illuminant};
 
-/// Of cameras that rawler knows, under its licence, which builds that read RAW files are bound by anyway;
-/// others predict no camera.
+/// Matrices of cameras that rawler knows, under its licence, which binds builds that read RAW files anyway;
+/// other builds predict no camera.
 #[cfg(feature = "raw")]
 const MATRICES: &str = include_str!("../../share/camera-matrices.csv");
 #[cfg(not(feature = "raw"))]
 const MATRICES: &str = "";
-/// How far curves are from a linear function of the matrix, and how far makers are apart: variances, in units
-/// of what one standard deviation of a number of the matrix does. Between a third and three times as much of
-/// either, errors are the same to a twentieth.
+/// Variance of sensitivities around a linear function of the matrix, and of the makers' offsets, in units of
+/// the effect of one standard deviation of a matrix entry. With a third to three times either, errors are
+/// equal to a twentieth.
 const RIDGE: f64 = 1.0;
 const MAKERS_APART: f64 = 1.0;
-/// A matrix further from those of the cameras, in standard deviations of its numbers, is none of a camera:
-/// root mean square of all nine.
+/// Largest root mean square distance of a matrix from those of the cameras, in standard deviations of its
+/// nine entries; beyond that it is no camera's.
 const FARTHEST: f64 = 4.0;
-/// Errors of a channel's curve that are kept, of those that explain most of them: these hold nineteen parts
-/// in twenty.
+/// Number of error components kept per channel, in order of variance: these contain nineteen parts in twenty.
 const ERRORS: usize = 5;
 
-/// How far off predicted sensitivities are in the mean, root mean square where green's peak is 1: measured by
-/// leaving each camera out in turn.
+/// Expected error of predicted sensitivities, root mean square relative to green's peak, from leaving each
+/// camera out in turn.
 pub const PREDICTED_ERROR: f64 = 0.030;
 
-/// Rows of a matrix from XYZ to a camera's R, G and B, as the tag `ColorMatrix` of DNG has it for D65.
+/// Rows of a matrix from XYZ to a camera's R, G and B, as in DNG's tag `ColorMatrix` for D65.
 pub type ColourMatrix = [[f64; 3]; 3];
 
-/// A matrix relative to what green makes of white: nine numbers, rows of the matrix times the white of D65.
+/// A matrix relative to green's response to white: nine numbers, rows of the matrix times the white of D65.
 type Features = DVector<f64>;
 
-/// A measured camera whose matrix is published.
+/// A measured camera with a published matrix.
 struct Example {
     camera: MeasuredCamera,
     features: Features,
-    /// Curves R, G and B, one after the other, green's peak being 1.
+    /// Sensitivities R, G and B, concatenated and normalised to green's peak.
     sensitivities: DVector<f64>,
 }
 
-/// What predicts curves.
+/// Predicts sensitivities.
 pub struct Predictor {
     examples: Vec<Example>,
     white_xyz: [f64; 3],
     bands: usize,
 }
 
-/// A camera that was left out, and what the others predict of it.
+/// A camera that was left out, and its prediction from the others.
 #[derive(Clone, Debug)]
 pub struct PredictedLeftOut {
-    /// Which camera.
+    /// The camera.
     pub camera: MeasuredCamera,
-    /// Its curves as predicted.
+    /// Its predicted sensitivities.
     pub predicted: [Vec<f64>; 3],
-    /// Its curves as measured.
+    /// Its measured sensitivities.
     pub measured: [Vec<f64>; 3],
 }
 
-/// The regression on some cameras.
+/// The regression on a set of cameras.
 struct Ridge<'a> {
     examples: Vec<&'a Example>,
     mean: Features,
     sd: Features,
     mean_sensitivities: DVector<f64>,
-    /// Camera by number of the curves.
+    /// Camera by concatenated sensitivities.
     coefficients: DMatrix<f64>,
 }
 
 impl Predictor {
-    /// For curves on `grid`, by the matrices that are published.
+    /// For sensitivities on `grid`, from the published matrices.
     ///
     /// # Errors
     /// Only if the embedded tables are damaged.
@@ -95,10 +94,10 @@ impl Predictor {
         Self::by_matrices(grid, &published.ok_or_else(damaged)?)
     }
 
-    /// The same by these matrices of measured cameras, with their [names](MeasuredCamera::name).
+    /// The same from these matrices of measured cameras, with their [names](MeasuredCamera::name).
     ///
     /// # Errors
-    /// [`Error::Fault`] if a camera was not measured, or a matrix is none of a camera.
+    /// [`Error::Fault`] if a camera was not measured, or a matrix is not a camera's.
     pub fn by_matrices(grid: &WavelengthGrid, matrices: &[(String, ColourMatrix)]) -> Result<Self> {
         let eye = Colorimeter::new(grid, &illuminant("D65")?, Observer::Cie1931_2deg)?;
         let white_xyz = eye.xyz(&vec![1.0; grid.len()]);
@@ -117,8 +116,9 @@ impl Predictor {
         Ok(Self { examples: examples.ok_or_else(damaged)?, white_xyz, bands: grid.len() })
     }
 
-    /// Curves R, G and B, green's peak being 1, of a camera by `make`, as it writes that into its pictures,
-    /// with this colour matrix; none if that is no camera's, and in builds that do not read RAW files.
+    /// Sensitivities R, G and B, normalised to green's peak, of a camera by `make`, as written in its
+    /// pictures, with this colour matrix; none if the matrix is not a camera's, and in builds that do not
+    /// read RAW files.
     ///
     /// # Example
     /// ```
@@ -140,7 +140,7 @@ impl Predictor {
         is_camera.then(|| self.sensitivities(&ridge, &features, |camera| camera.is_made_by(make)))
     }
 
-    /// Each camera as the others predict it.
+    /// The prediction of each camera from the others.
     #[must_use]
     pub fn left_out(&self) -> Vec<PredictedLeftOut> {
         let left_out = |one: &Example| {
@@ -155,8 +155,8 @@ impl Predictor {
         self.examples.iter().filter_map(left_out).collect()
     }
 
-    /// The camera of the matrix that is nearest to that of a camera: what would stand in for it without a
-    /// regression. None if that is not known.
+    /// The camera with the matrix nearest to that of a camera, which would stand in for it without a
+    /// regression. None if its matrix is unknown.
     #[must_use]
     pub fn nearest_to(&self, camera: &str) -> Option<MeasuredCamera> {
         let one = self.examples.iter().find(|one| one.camera.name() == camera)?;
@@ -165,9 +165,9 @@ impl Predictor {
         others.min_by(|a, b| off(a).total_cmp(&off(b))).map(|other| other.camera)
     }
 
-    /// How predicted sensitivities are off, green's peak being 1: errors of a channel by waveband, each of
-    /// standard deviation 1 as it is, those of cameras left out in turn. None in builds that do not read RAW
-    /// files.
+    /// Errors of predicted sensitivities relative to green's peak: error components of each channel by
+    /// waveband, each scaled to one standard deviation, from cameras left out in turn. Empty in builds that
+    /// do not read RAW files.
     #[must_use]
     pub fn errors(&self) -> Vec<(usize, DVector<f64>)> {
         let left_out = self.left_out();
@@ -207,7 +207,7 @@ impl Predictor {
 }
 
 impl<'a> Ridge<'a> {
-    /// None without a camera.
+    /// None without cameras.
     fn of(examples: Vec<&'a Example>) -> Option<Self> {
         let rows: Vec<_> = examples.iter().map(|one| one.features.clone()).collect();
         if rows.is_empty() {
@@ -233,7 +233,7 @@ impl<'a> Ridge<'a> {
         (features - &self.mean).component_div(&self.sd)
     }
 
-    /// How alike a camera's sensitivities and those of each other are before they are looked at.
+    /// Prior covariances of a camera's sensitivities with those of each example.
     fn likeness(&self, features: &Features, is_same_maker: impl Fn(&MeasuredCamera) -> bool) -> DVector<f64> {
         let own = self.scaled(features);
         let likeness = |other: &&Example| {
@@ -252,7 +252,7 @@ fn damaged() -> Error {
     Error::Fault("share/camera-matrices.csv has what is no measured camera's matrix".to_owned())
 }
 
-/// None if green sees nothing of white.
+/// None if green does not respond to white.
 fn features(matrix: &ColourMatrix, white_xyz: [f64; 3]) -> Option<Features> {
     let numbers =
         matrix.iter().flat_map(|row| row.iter().zip(white_xyz).map(|(number, white)| number * white));

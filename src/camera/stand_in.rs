@@ -1,36 +1,36 @@
-//! Which measured camera stands in for one that nobody measured.
+//! Selects a measured camera to stand in for an unmeasured one.
 //!
-//! Of the same maker's cameras the one nearest to all others of that maker; without any of the maker, the one
-//! nearest to all. `benches/cameras.rs` leaves each camera out in turn and prints how far off they are. A
-//! camera whose colour matrix is known needs none: its sensitivities are [predicted](super::Predictor).
+//! Among the same maker's cameras it is the one nearest to all others; without any, the one nearest to all
+//! cameras. `benches/cameras.rs` leaves each camera out in turn and prints the errors. A camera with a known
+//! colour matrix needs no stand-in: its sensitivities are [predicted](super::Predictor).
 
 use super::measured::{KnownSensitivities, known_sensitivities, sensitivity_error};
 use crate::error::Result;
 use crate::spectrum::WavelengthGrid;
 
-/// A camera in the place of another.
+/// A camera in place of another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StandIn {
     /// Its name.
     pub name: String,
-    /// Why this one.
+    /// Why it was selected.
     pub why: Why,
-    /// Its place among the known.
+    /// Its index among the known.
     at: usize,
 }
 
 /// Why a camera stands in for another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// Of the maker's cameras it is the most usual.
+    /// It is the most typical of the maker's cameras.
     Maker,
-    /// Of all cameras it is the most usual.
+    /// It is the most typical of all cameras.
     Any,
 }
 
 impl Why {
-    /// How far off the curves are in the mean, root mean square where green's peak is 1: measured by leaving
-    /// each camera out in turn.
+    /// Expected error of the sensitivities, root mean square relative to green's peak, from leaving each
+    /// camera out in turn.
     #[must_use]
     pub fn expected_error(self) -> f64 {
         match self {
@@ -49,22 +49,22 @@ impl Why {
     }
 }
 
-/// How far off stand-ins are for one camera, and the mean of all others.
+/// Errors of the stand-ins for one camera, and of the mean of all others.
 #[derive(Clone, Debug)]
 pub struct LeftOut {
-    /// The camera that is left out.
+    /// The camera left out.
     pub camera: String,
-    /// The camera taken for it by its maker, and without that, with its error.
+    /// Its stand-ins by maker, and without considering the maker, each with its error.
     pub stand_ins: [(StandIn, f64); 2],
     /// Error of the mean of all others.
     pub mean_error: f64,
 }
 
-/// All that can stand in.
+/// All possible stand-ins.
 #[derive(Clone, Debug)]
 pub struct StandIns {
     known: Vec<KnownSensitivities>,
-    /// Distances between their curves.
+    /// Distances between their sensitivities.
     distances: Vec<Vec<f64>>,
 }
 
@@ -81,7 +81,7 @@ impl StandIns {
         Ok(Self { distances: known.iter().map(row).collect(), known })
     }
 
-    /// The camera that stands in for one by `make`, as it writes that into its pictures.
+    /// The camera that stands in for one by `make`, as written in its pictures.
     ///
     /// # Example
     /// ```

@@ -1,5 +1,5 @@
-//! What `--generate` prints: a tool's man page and completions, from its own flags; page and schema of the
-//! stream, from its types.
+//! Output of `--generate`: a tool's man page and completions from its own flags; page and schema of the
+//! stream from its types.
 
 use std::io;
 
@@ -41,7 +41,7 @@ const SEE_ALSO: &str =
     "vfold(7), vfold-stream(5), vkernel(1), vextract(1), vforward(1), vestimate(1), vscore(1)";
 
 impl Generate {
-    /// Prints it for the tool that `command` is.
+    /// Prints it for the tool `command`.
     ///
     /// # Errors
     /// [`Error::Output`] if it cannot be written.
@@ -64,7 +64,7 @@ impl Generate {
     }
 }
 
-/// Flags that take built-in spectra by their names, or a file.
+/// Flags that take a built-in spectrum by name, or a file.
 const NAMED: [(What, &[&str]); 3] = [
     (What::Cameras, &["camera"]),
     (What::Illuminants, &["illuminant", "sky_illuminant"]),
@@ -74,7 +74,7 @@ const NAMED: [(What, &[&str]); 3] = [
     ),
 ];
 
-/// The command, its flags knowing the names that they take.
+/// The command with the possible names of these flags.
 fn with_names(mut command: Command) -> Result<Command> {
     for (what, flags) in NAMED {
         let names = built_in(what)?;
@@ -88,7 +88,7 @@ fn with_names(mut command: Command) -> Result<Command> {
     Ok(command)
 }
 
-/// Completions in which such flags take files, too: clap knows names or files, not both.
+/// Completions in which these flags also take files: clap offers names or files, not both.
 fn with_files(mut text: String, shell: Shell) -> Result<String> {
     for (what, _) in NAMED {
         let names = built_in(what)?;
@@ -106,7 +106,7 @@ fn with_files(mut text: String, shell: Shell) -> Result<String> {
     Ok(text)
 }
 
-/// What is written, in a line: all flags are below.
+/// The synopsis in one line: all flags are below.
 fn synopsis(page: &mut Roff, command: &Command) {
     let mut parts = vec![bold(command.get_name()), roman(" [OPTIONS]")];
     for argument in command.get_positionals() {
@@ -118,15 +118,15 @@ fn synopsis(page: &mut Roff, command: &Command) {
     page.control("SH", ["SYNOPSIS"]).text(parts);
 }
 
-/// The sections of man-pages(7), in its order; what `--help` ends with is EXAMPLES up to its first empty
-/// line, then NOTES.
+/// The sections of man-pages(7), in its order; the text after the options of `--help` is EXAMPLES up to its
+/// first empty line, then NOTES.
 fn man_page(command: Command, page: &mut Vec<u8>) -> io::Result<()> {
     let title = command.get_name().to_uppercase();
     let help_end = command.get_after_help().map(ToString::to_string).unwrap_or_default();
     let (examples, notes) = help_end.split_once("\n\n").unwrap_or((&help_end, ""));
     let mut short = Roff::new();
     synopsis(&mut short, &command);
-    // no date: pages would be stale by tomorrow
+    // no date, which would be outdated tomorrow
     let man = Man::new(command)
         .title(title)
         .date("\"\"")
@@ -148,7 +148,7 @@ fn man_page(command: Command, page: &mut Vec<u8>) -> io::Result<()> {
     rest.to_writer(page)
 }
 
-/// A section of lines that are not filled.
+/// A section with unfilled lines.
 fn as_it_is(page: &mut Roff, title: &str, text: &str) {
     if text.is_empty() {
         return;

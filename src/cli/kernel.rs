@@ -1,4 +1,4 @@
-//! Flags for a kernel that was made elsewhere.
+//! Flags for a kernel made elsewhere.
 
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ pub struct KernelArgs {
 }
 
 impl KernelArgs {
-    /// The kernel, if one is given.
+    /// The kernel, if stated.
     ///
     /// # Errors
     /// As [`ExternalKernel::read`].

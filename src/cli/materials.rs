@@ -1,4 +1,4 @@
-//! Flags for groups of a shape whose reflectance is known.
+//! Flags for groups of a shape with known reflectance.
 
 use clap::Args;
 

@@ -1,11 +1,10 @@
-//! How a tool ends where it does not run as asked: panics and wrong usage, each in one line.
+//! Abnormal ends of a tool: panics and wrong usage, each in one line.
 
 use std::panic::{self, AssertUnwindSafe};
 
 use crate::error::{Error, Result};
 
-/// What `run` returns, or an error where it panics; the trace for developers comes if `RUST_BACKTRACE` asks
-/// for it.
+/// The result of `run`, or an error if it panics; developers get a backtrace if `RUST_BACKTRACE` is set.
 pub(super) fn without_panic<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
     if std::env::var_os("RUST_BACKTRACE").is_none() {
         panic::set_hook(Box::new(|_| ()));
@@ -18,7 +17,7 @@ pub(super) fn without_panic<T>(run: impl FnOnce() -> Result<T>) -> Result<T> {
     panic::catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(fault)
 }
 
-/// What clap says of arguments, on one line: its usage is that of `--help`.
+/// A message of clap in one line, without the usage, which `--help` contains.
 pub(super) fn misuse(rendered: &str) -> String {
     let paragraphs = rendered.trim_start_matches("error: ").split("\n\n");
     let text = paragraphs.take_while(|text| !text.starts_with("Usage:") && !text.starts_with("For more"));
@@ -27,7 +26,7 @@ pub(super) fn misuse(rendered: &str) -> String {
     NUMBERS.iter().fold(text, |text, (theirs, ours)| text.replace(theirs, ours))
 }
 
-/// What Rust says of text that is no number, and what people say.
+/// Rust's messages for text that is not a number, and plain ones.
 const NUMBERS: [(&str, &str); 5] = [
     ("invalid float literal", "that is no number"),
     ("invalid digit found in string", "that is no whole number of 0 or more"),

@@ -1,4 +1,4 @@
-//! A page of this machine's own, on which a person answers.
+//! A web page served on this machine, on which a person answers.
 
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
@@ -9,42 +9,41 @@ use tiny_http::{Header, Method, Request, Response, Server};
 
 use crate::error::{Error, Result};
 
-/// Longer answers are none, bytes.
+/// Longest accepted answer, bytes.
 const LONGEST_ANSWER: u64 = 1 << 16;
 
 /// A file of the page.
 #[derive(Clone, Debug)]
 pub struct ServedFile {
-    /// Its name in the page's folder; that of the page itself is empty.
+    /// Its name in the page's folder; empty for the page itself.
     pub name: &'static str,
     /// Its media type, such as `image/png`.
     pub media_type: &'static str,
-    /// What is in it.
+    /// Its contents.
     pub bytes: Vec<u8>,
 }
 
-/// What becomes of something that the page sent.
+/// Response to something that the page sent.
 #[derive(Clone, Debug)]
 pub enum Reply<T> {
-    /// It is the answer, and the page is done with.
+    /// It is the answer; the page is no longer needed.
     Answered(T),
-    /// This text goes back to the page.
+    /// This text is returned to the page.
     Text(String),
-    /// It is not understood, and this is why.
+    /// It is refused for this reason.
     Refused(String),
 }
 
-/// Serves files to this machine alone, at an address that nobody can guess, until the page has sent an
-/// answer.
+/// Serves files to this machine only, at an unguessable address, until the page has sent an answer.
 ///
 /// # Arguments
-/// - `files`: the page, and what it asks for.
-/// - `wait`: how long the answer may take.
-/// - `open`: shows the page, whose address it is given, to the person.
-/// - `reply`: what becomes of a text that the page sends to a name, such as `done`.
+/// - `files`: the page and the files that it requests.
+/// - `wait`: time limit for the answer.
+/// - `open`: shows the page at this address to the person.
+/// - `reply`: the response to a text sent by the page to a name, such as `done`.
 ///
 /// # Errors
-/// [`Error::Output`] if no page can be served here, or nobody answers in time.
+/// [`Error::Output`] if no page can be served, or nobody answers in time.
 ///
 /// # Example
 /// ```
@@ -108,14 +107,13 @@ pub fn ask_on_page<T>(
     }
 }
 
-/// 128 bits of what the operating system seeds hash tables with, which no other page of the browser can
-/// guess.
+/// 128 bits from the operating system's seeds for hash tables, which no other page in the browser can guess.
 fn unguessable() -> String {
     let number = || RandomState::new().build_hasher().finish();
     format!("{:016x}{:016x}", number(), number())
 }
 
-/// A page that is gone gets no answer, and none is missed.
+/// Sends a response; a page that has closed is ignored.
 fn send(request: Request, status: u16, media_type: &str, bytes: &[u8]) {
     let header = |name: &str, value: &str| Header::from_bytes(name, value).ok();
     let headers = [header("Content-Type", media_type), header("Cache-Control", "no-store")];

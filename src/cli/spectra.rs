@@ -1,4 +1,4 @@
-//! Spectra that flags name, with a note of what had to be done to them.
+//! Spectra named by flags, with notes on their conversion.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::spectrum::{Sensitivities, Spectrum};
 use crate::stream;
 
 impl Common {
-    /// The reflectances that `spec` names.
+    /// The reflectances named by `spec`.
     ///
     /// # Errors
     /// As [`stream::reflectances`].
@@ -18,7 +18,7 @@ impl Common {
         Ok(spectra)
     }
 
-    /// The one reflectance that a flag names.
+    /// The single reflectance named by a flag.
     ///
     /// # Errors
     /// As [`stream::reflectances`], or [`Error::Usage`] if it is a set.
@@ -26,7 +26,7 @@ impl Common {
         one(flag, spec, self.reflectances(spec)?)
     }
 
-    /// The parts of white's light that `spec` names.
+    /// The radiance factors named by `spec`.
     ///
     /// # Errors
     /// As [`Specs::radiance_factors`](crate::spectrum::spec::Specs::radiance_factors).
@@ -36,7 +36,7 @@ impl Common {
         Ok(spectra)
     }
 
-    /// The one part of white's light that a flag names.
+    /// The single radiance factor named by a flag.
     ///
     /// # Errors
     /// As [`Common::radiance_factors`], or [`Error::Usage`] if it is a set.
@@ -44,7 +44,7 @@ impl Common {
         one(flag, spec, self.radiance_factors(spec)?)
     }
 
-    /// The illuminant that `spec` names.
+    /// The illuminant named by `spec`.
     ///
     /// # Errors
     /// As [`stream::illuminant`].
@@ -54,7 +54,7 @@ impl Common {
         Ok(spectrum)
     }
 
-    /// All illuminants that `spec` names.
+    /// All illuminants named by `spec`.
     ///
     /// # Errors
     /// As [`Specs::illuminants`](crate::spectrum::spec::Specs::illuminants).
@@ -64,7 +64,7 @@ impl Common {
         Ok(spectra)
     }
 
-    /// The camera that `spec` names.
+    /// The camera named by `spec`.
     ///
     /// # Errors
     /// As [`stream::camera`].
@@ -74,7 +74,7 @@ impl Common {
         Ok(camera)
     }
 
-    /// Says what was done to spectra as they were read, each thing once.
+    /// Prints the notes on spectra as they were read, each once.
     fn say_notes<'a>(&self, spectra: impl IntoIterator<Item = &'a Spectrum>) {
         for note in spectra.into_iter().filter_map(Spectrum::note).filter(|_| !self.quiet) {
             if self.notes.is_new(note) {

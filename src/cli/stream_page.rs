@@ -1,10 +1,10 @@
-//! The page vfold-stream(5): what is written by hand, with the fields of all records from their types.
+//! The page vfold-stream(5): handwritten text, with the fields of all records generated from their types.
 
 use roff::{Roff, bold, italic, roman};
 
 use crate::stream::{FieldOutline, RecordOutline, outline};
 
-/// The page but for the records.
+/// The page without the records.
 const PAGE: &str = include_str!("../../man/vfold-stream.5.in");
 
 /// The page in roff.
@@ -27,7 +27,7 @@ fn add(FieldOutline { path, holds, description, writers }: &FieldOutline, page: 
         .text([roman(description.clone() + &written(writers.as_deref()))]);
 }
 
-/// The sentence on who writes something, if that is said.
+/// The sentence on which tools write something, if stated.
 fn written(writers: Option<&str>) -> String {
     writers.map(|writers| format!(" Written by {writers}.")).unwrap_or_default()
 }

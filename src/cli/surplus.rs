@@ -1,12 +1,11 @@
-//! Flags that do not go with others.
+//! Flags that cannot be combined with others.
 
 use crate::error::{Error, Result};
 
-/// Refuses the first of `flags` that was given, each with whether it was: what is wrong with it, and what to
-/// do.
+/// Refuses the first of `flags` that is present, each paired with whether it is, with a problem and a remedy.
 ///
 /// # Errors
-/// [`Error::Usage`] if one was given.
+/// [`Error::Usage`] if one is present.
 ///
 /// # Example
 /// ```

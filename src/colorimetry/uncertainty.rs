@@ -1,16 +1,16 @@
 //! Error bars of colours.
 //!
-//! Of first order: colour coordinates are taken to be linear in the reflectance within its error bars, as
-//! JCGM 100:2008 (GUM), section 5, has it.
+//! First-order propagation: colour coordinates are linearised in the reflectance within its error bars, as in
+//! JCGM 100:2008 (GUM), section 5.
 
 use super::Colorimeter;
 
-/// What is known of the errors of a reflectance.
+/// The errors of a reflectance.
 #[derive(Clone, Copy, Debug)]
 pub enum ErrorBars<'a> {
     /// Covariance, waveband by waveband.
     Covariance(&'a [Vec<f64>]),
-    /// Standard deviation per waveband; how the errors of different wavebands are correlated is not known.
+    /// Standard deviation per waveband, with unknown correlation between wavebands.
     Deviations(&'a [f64]),
 }
 
@@ -29,19 +29,19 @@ impl Colorimeter {
     /// The colour of a reflectance on the grid.
     ///
     /// # Panics
-    /// If `reflectance` is not as long as the grid.
+    /// If `reflectance` and the grid differ in length.
     #[must_use]
     pub fn colour(&self, reflectance: &[f64]) -> Colour {
         Colour { xyz: self.xyz(reflectance), lab: self.lab(reflectance), srgb: self.srgb(reflectance) }
     }
 
-    /// Standard deviations of the colour of a reflectance: of its covariance, or the largest that its
-    /// deviations allow, whatever their correlation.
+    /// Standard deviations of the colour of a reflectance: from its covariance, or the largest that its
+    /// standard deviations allow under any correlation.
     ///
-    /// sRGB is as if it were not clipped.
+    /// sRGB is treated as unclipped.
     ///
     /// # Panics
-    /// If `reflectance` or its error bars are not as long as the grid.
+    /// If `reflectance` or its error bars differ from the grid in length.
     ///
     /// # Example
     /// ```
@@ -61,7 +61,7 @@ impl Colorimeter {
         Colour { xyz: sd(unit), lab: sd(self.lab_slopes(xyz)), srgb: sd(self.srgb_slopes(xyz)) }
     }
 
-    /// Standard deviation of the number that changes with X, Y and Z by `slope`.
+    /// Standard deviation of a number whose derivatives with respect to X, Y and Z are `slope`.
     fn sd_along(&self, slope: [f64; 3], errors: ErrorBars) -> f64 {
         let gradient: Vec<f64> = self.wavebands.iter().map(|xyz| dot(slope, *xyz)).collect();
         let sum = |weights: &[f64]| gradient.iter().zip(weights).map(|(g, w)| g * w).sum::<f64>();
@@ -78,14 +78,14 @@ impl Colorimeter {
         }
     }
 
-    /// How L*, a* and b* change with X, Y and Z.
+    /// Derivatives of L*, a* and b* with respect to X, Y and Z.
     fn lab_slopes(&self, xyz: [f64; 3]) -> [[f64; 3]; 3] {
         let white = self.white.to_array();
         let [x, y, z] = [0, 1, 2].map(|i| cube_root_slope(xyz[i] / white[i]) / white[i]);
         [[0.0, 116.0 * y, 0.0], [500.0 * x, -500.0 * y, 0.0], [0.0, 200.0 * y, -200.0 * z]]
     }
 
-    /// How sRGB changes with X, Y and Z.
+    /// Derivatives of sRGB with respect to X, Y and Z.
     fn srgb_slopes(&self, xyz: [f64; 3]) -> [[f64; 3]; 3] {
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|unit| self.screen(unit));
         let linear = self.screen(xyz);
@@ -93,7 +93,7 @@ impl Colorimeter {
     }
 }
 
-/// Slope of CIELAB's cube root with its straight part (CIE 15:2018, section 8.2.1).
+/// Slope of CIELAB's cube root with its linear part (CIE 15:2018, section 8.2.1).
 fn cube_root_slope(t: f64) -> f64 {
     let delta: f64 = 6.0 / 29.0;
     if t > delta.powi(3) { t.powf(-2.0 / 3.0) / 3.0 } else { 1.0 / (3.0 * delta * delta) }

@@ -1,4 +1,4 @@
-//! Checksums, by which a file is known again.
+//! Checksums that identify files.
 
 use std::fs::File;
 use std::io::{self, Read};

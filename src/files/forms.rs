@@ -1,11 +1,11 @@
-//! What a file is by its first bytes: text in UTF-8 or UTF-16, or something else that has a name.
+//! The form of a file by its first bytes: text in UTF-8 or UTF-16, or another known format.
 
 /// A form other than text in UTF-8.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
-    /// What a file of this form is, in words.
+    /// Describes a file of this form.
     pub name: &'static str,
-    /// What makes text in UTF-8 of it; no command does of a document.
+    /// A command that converts it to text in UTF-8; none for a document.
     command: Option<&'static str>,
 }
 
@@ -18,13 +18,14 @@ impl Form {
         Self { name, command: None }
     }
 
-    /// What to do about it, where a command makes text of it.
+    /// The remedy, if a command converts it to text.
     pub fn way_out(&self) -> Option<String> {
         self.command.map(|command| format!("put it through {command} first"))
     }
 }
 
-/// How forms other than text in UTF-8 or UTF-16 begin; of those without a mark, as JSON does in them.
+/// First bytes of forms other than text in UTF-8 or UTF-16; without a mark, the encoding of the beginning of
+/// JSON.
 const FORMS: [(&[u8], Form); 11] = [
     (b"\x1f\x8b", Form::undone_by("compressed by gzip", "gzip -dc")),
     (b"\x28\xb5\x2f\xfd", Form::undone_by("compressed by zstd", "zstd -dc")),
@@ -41,15 +42,15 @@ const FORMS: [(&[u8], Form); 11] = [
 const UTF_32: &str = "text in UTF-32";
 const NO_TEXT: Form = Form::document("no text");
 
-/// What some programs put before text in UTF-8.
+/// Some programs put this before text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Text without the mark before it.
+/// Text without the byte order mark.
 pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes)
 }
 
-/// What the first bytes of a file of JSON say that it is, where that is no text in UTF-8.
+/// The form of a JSON file by its first bytes, if it is not text in UTF-8.
 pub(crate) fn other_form(bytes: &[u8]) -> Option<Form> {
     let in_utf_16 = || {
         let (order, command) = utf_16(bytes)?;
@@ -59,23 +60,23 @@ pub(crate) fn other_form(bytes: &[u8]) -> Option<Form> {
     no_text(bytes).or_else(in_utf_16)
 }
 
-/// What a file is that no text can be read from here.
+/// The form of a file that contains no readable text.
 fn no_text(bytes: &[u8]) -> Option<Form> {
     FORMS.iter().find(|(beginning, _)| bytes.starts_with(beginning)).map(|(_, form)| *form)
 }
 
-/// The text of a file, its lines ended by `\n`.
+/// The text of a file, with lines ended by `\n`.
 pub(crate) struct Text {
     pub text: String,
-    /// Whether its encoding is known: if not, no letter beyond ASCII is.
+    /// Whether its encoding is known: if not, letters beyond ASCII are unknown.
     pub is_unicode: bool,
 }
 
 impl Text {
-    /// UTF-8 or UTF-16, either with or without a byte order mark; else an encoding of eight bits a letter.
+    /// UTF-8 or UTF-16, with or without a byte order mark; otherwise an encoding of eight bits per letter.
     ///
     /// # Errors
-    /// What the file is, if it is no text.
+    /// The form of the file, if it is not text.
     pub fn decode(bytes: &[u8]) -> Result<Self, Form> {
         if let Some(form) = no_text(bytes) {
             return Err(form);
@@ -92,13 +93,13 @@ impl Text {
     }
 }
 
-/// How to read two bytes as a number.
+/// Converts two bytes to a number.
 type ByteOrder = fn([u8; 2]) -> u16;
 
-/// The byte order of UTF-16, by its mark, else by the zeros that letters of ASCII have in it; and what makes
-/// UTF-8 of it.
+/// The byte order of UTF-16, by its mark or else by the zeros in its ASCII letters; and a command that
+/// converts it to UTF-8.
 fn utf_16(bytes: &[u8]) -> Option<(ByteOrder, &'static str)> {
-    /// So much is looked at.
+    /// Number of bytes examined.
     const START: usize = 256;
     const BY_ITS_MARK: &str = "iconv -f UTF-16 -t UTF-8";
     match bytes {
@@ -134,7 +135,7 @@ mod tests {
         (text, is_unicode)
     }
 
-    /// As `iconv` of the GNU C library encodes the text.
+    /// As encoded by `iconv` of the GNU C library.
     #[test]
     fn unicode_is_known_by_its_mark_or_its_zeros() {
         let wanted = ("µm,r\n1,2\n".to_owned(), true);
@@ -166,7 +167,7 @@ mod tests {
         }
     }
 
-    /// Lines that are read one by one are read in UTF-8 alone.
+    /// Lines read one by one must be in UTF-8.
     #[test]
     fn lines_in_utf_16_are_named() {
         for (bytes, encoding) in [

@@ -1,16 +1,16 @@
 //! From a picture file to the mean colour of every facet of a folded sheet.
 //!
-//! [`Photograph`] reads a file and gives linear light, [`Homography`] says where on a panel a pixel lies,
-//! [`measure`] averages the light over each facet, [`measure_patches`] over those of a chart; [`find_fold`]
-//! finds the panels of a fold, [`find_chart`] a chart, [`FoldSeen`] the angle between panels, [`refine`]
-//! where exactly they are, and [`write_overlay`] shows it. [`write_linear`] and [`write_srgb_png`] go the
-//! other way. Nothing here knows about reflectance, cameras or the command line.
+//! [`Photograph`] reads a file into linear light, [`Homography`] maps between panel and picture, [`measure`]
+//! averages the light over each facet, [`measure_patches`] over a chart's patches; [`find_fold`] locates the
+//! panels of a fold, [`find_chart`] a chart, [`FoldSeen`] determines the angle between panels, [`refine`]
+//! their exact corners, and [`write_overlay`] shows them. [`write_linear`] and [`write_srgb_png`] write
+//! pictures. Nothing here depends on reflectances, camera sensitivities or the command line.
 //!
 //! Image coordinates are continuous: origin at the top left corner of the upright picture, x to the right, y
 //! down; pixel (i, j) covers [i, i+1) x [j, j+1). Panel coordinates run from 0 to 1: u along the crease, v
 //! outwards from it.
 //!
-//! Each room uses only those to its right:
+//! Each module uses only those to its right:
 //!
 //! ```text
 //! drawing -> measuring -> placing

@@ -1,4 +1,4 @@
-//! Which camera took a photograph.
+//! Determines the camera of a photograph.
 
 use crate::camera::{ColourMatrix, PREDICTED_ERROR, Predictor, StandIn, StandIns};
 use crate::error::{Error, Result};
@@ -6,27 +6,27 @@ use crate::image::PhotographInfo;
 use crate::spectrum::{self, Sensitivities, Spectrum, WavelengthGrid};
 use crate::stream::StandInRecord;
 
-/// A camera, and what it stands in for.
+/// A camera, and the one for which it stands in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// Built-in name or file; of one whose sensitivities are predicted, what they are called.
+    /// Built-in name or file; for predicted sensitivities, their name.
     pub spec: String,
-    /// Its curves, if they are predicted.
+    /// Its sensitivities, if they are predicted.
     pub predicted: Option<Sensitivities>,
-    /// The camera that took the photograph, if nobody measured that one's sensitivities.
+    /// The camera that took the photograph, if its sensitivities were not measured.
     pub stands_in: Option<StandInRecord>,
-    /// What is to be said of it.
+    /// A note on it for the user.
     pub note: Option<String>,
 }
 
 impl Camera {
-    /// One that somebody named.
+    /// A camera named by the user.
     #[must_use]
     pub fn named(spec: &str) -> Self {
         Self { spec: spec.to_owned(), predicted: None, stands_in: None, note: None }
     }
 
-    /// Its curves: those that are predicted, or what `read` makes of its name.
+    /// Its sensitivities: the predicted ones, or those that `read` returns for its name.
     ///
     /// # Errors
     /// As `read`.
@@ -35,7 +35,7 @@ impl Camera {
     }
 }
 
-/// The camera that a photograph names, or one that stands in for it.
+/// The camera named in a photograph, or a stand-in for it.
 ///
 /// # Errors
 /// [`Error::Usage`] if the photograph names no camera.
@@ -73,7 +73,8 @@ pub fn camera_of(info: &PhotographInfo) -> Result<Camera> {
     Ok(Camera { stands_in, note, ..Camera::named(&name) })
 }
 
-/// A camera by `make`, called `of`, whose curves its colour matrix predicts; none if that is no camera's.
+/// A camera by `make`, called `of`, with sensitivities predicted from its colour matrix; none if the matrix
+/// is not a camera's.
 fn predicted(make: &str, of: &str, matrix: &ColourMatrix) -> Result<Option<Camera>> {
     let grid = WavelengthGrid::uniform(380.0, 780.0, 5.0)?;
     let Some(sensitivities) = Predictor::new(&grid)?.predict(make, matrix) else { return Ok(None) };

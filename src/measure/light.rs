@@ -1,20 +1,21 @@
-//! Which light a photograph was taken in.
+//! Determines the light of a photograph.
 
 use crate::image::Taken;
 use crate::spectrum::Sun;
 
-/// The light of a photograph by what its camera wrote, or why that does not tell it, in words.
+/// The light of a photograph according to its camera's notes, with the reason if it is not the sun.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LightTaken {
-    /// The sun, as SPEC. A hundredth of a degree is near enough, and tells nobody's address.
+    /// The sun, as SPEC. Coordinates rounded to a hundredth of a degree are accurate enough, and reveal no
+    /// address.
     Sun(String, Sun),
-    /// Daylight, for all that is known.
+    /// Daylight, as far as is known.
     Daylight(String),
-    /// Not daylight: a flash, lamps, or whatever there was at night.
+    /// Not daylight: a flash, lamps, or any light at night.
     OtherThanDaylight(String),
 }
 
-/// What the camera wrote of the light.
+/// The light according to the camera's notes.
 #[must_use]
 pub fn light_of(taken: &Taken) -> LightTaken {
     let Taken { place_deg, time, other_light, clock: _ } = taken;

@@ -1,5 +1,4 @@
-//! From one photograph to the spectrum of its sheet in one call, by what the tools do if no flag says
-//! otherwise.
+//! From a photograph to the spectrum of its sheet in one call, as the tools do by default.
 
 mod camera;
 mod light;
@@ -36,29 +35,28 @@ use crate::stream::{self, Optics};
 pub struct Setup<'a> {
     /// The fold and its facets.
     pub fold: Fold,
-    /// Where the sun stands, and how much sky there is.
+    /// Direction of the sun, and diffuse-to-direct ratio.
     pub light: Light,
     /// Corners of each panel, px of the upright picture from its top left corner: crease end 0, crease end 1,
-    /// outer end 1, outer end 0; they are moved to the edges around them.
+    /// outer end 1, outer end 0; they are refined to the nearby edges.
     pub corners: [[Point; 4]; 2],
     /// Wavelengths of the spectrum.
     pub wavelengths: WavelengthGrid,
-    /// Built-in name or file of the camera; none: the one that the photograph names, or one that stands in
-    /// for it.
+    /// Built-in name or file of the camera; if none, the one named in the photograph, or a stand-in for it.
     pub camera: Option<&'a str>,
-    /// Built-in name or file of the illuminant, or a SPEC such as `sun:40deg`; none: the sun of the
-    /// photograph's place and time if it says them, else daylight that is assumed, or, by a flash, a lamp or
-    /// at night, a light that is found.
+    /// Built-in name or file of the illuminant, or a SPEC such as `sun:40deg`; if none, the sun at the
+    /// photograph's place and time if recorded, else assumed daylight or, with a flash, a lamp or at night,
+    /// an inferred light.
     pub illuminant: Option<&'a str>,
-    /// Value of a perfect white diffuser facing the sun, in its strongest channel, if it is known.
+    /// Value of a perfect white diffuser facing the sun, in its strongest channel, if known.
     pub exposure: Option<f64>,
     /// What is behind the sheet.
     pub backing: Backing,
 }
 
 impl Setup<'_> {
-    /// A fold of square panels open by `angle_deg`, degrees, with 10 x 10 facets each, the sun on the plane
-    /// that halves it, and all else unknown; the spectrum from 400 to 700 nm by 5.
+    /// A fold of square panels open by `angle_deg`, degrees, with 10 x 10 facets each, the sun in its plane
+    /// of symmetry, and everything else unknown; the spectrum from 400 to 700 nm by 5.
     ///
     /// # Errors
     /// [`Error::Usage`] if there is no such fold.
@@ -76,7 +74,7 @@ impl Setup<'_> {
         })
     }
 
-    /// The fold in its light before the camera that took the photograph.
+    /// The fold, its light, and the camera that took the photograph.
     fn setting(&self, photograph: &Photograph) -> Result<FoldSetting> {
         let info = photograph.info();
         let camera = match self.camera {
@@ -107,7 +105,7 @@ impl Setup<'_> {
         })
     }
 
-    /// What the light may be where nobody states it and the camera wrote that it was not daylight; empty
+    /// Candidates for a light that was not stated and that the camera noted not to be daylight; empty
     /// otherwise.
     fn lights(&self, photograph: &Photograph, optics: &Optics) -> Result<Vec<Candidate>> {
         match (self.illuminant, light_of(&photograph.info().camera.taken)) {
@@ -119,23 +117,23 @@ impl Setup<'_> {
     }
 }
 
-/// Measures the spectrum of a folded sheet in a photograph: what `vkernel`, `vextract` and `vestimate` make
-/// of it by default.
+/// Measures the spectrum of a folded sheet in a photograph, as `vkernel`, `vextract` and `vestimate` do by
+/// default.
 ///
 /// # Arguments
-/// - `photograph`: linear light, opened from a file ([`Photograph::open`]) or
-///   [at hand](Photograph::from_light).
-/// - `setup`: where the panels are in it, and what is known of fold, light and camera.
+/// - `photograph`: linear light, opened from a file ([`Photograph::open`]) or [in
+///   memory](Photograph::from_light).
+/// - `setup`: positions of the panels, and what is known of fold, light and camera.
 ///
 /// # Returns
-/// Of every wavelength the 45:0 reflectance, from 0 to 1, with its standard deviation; the exposure; what was
-/// found that sets the photograph apart from that of an ideal fold; and how far all that can be trusted. See
+/// For every wavelength the 45°:0° reflectance factor, from 0 to 1, with its standard deviation; the
+/// exposure; effects that distinguish the photograph from that of an ideal fold; and the verdict. See
 /// [`Measurement`].
 ///
 /// # Errors
-/// [`Error::Usage`] if the photograph names no camera and none is given, or corners are not those of the
+/// [`Error::Usage`] if neither the photograph nor `setup` names a camera, or corners are not those of the
 /// fold's panels; [`Error::Corners`] if they lie outside the picture; [`Error::Spectrum`] if camera or light
-/// are not known; [`Error::Field`] if no facet can be used, or they are nothing like those of a fold.
+/// are unknown; [`Error::Field`] if no facet is usable, or the facets are nothing like those of a fold.
 ///
 /// # Example
 /// ```
@@ -228,7 +226,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     Ok(measurement)
 }
 
-/// What was measured of facets, as values of facets.
+/// A property of the facets' measurements as facet values.
 fn values(
     facets: &[FacetMeasurement],
     pick: fn(&FacetMeasurement) -> Option<Vec<f64>>,

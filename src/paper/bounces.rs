@@ -1,33 +1,32 @@
-//! How many bounces of light count: the first ones are eqs. (5) to (7), in matrices eqs. (11) to (13), their
-//! sum is eq. (14).
+//! The number of bounces of light that count: the first ones are eqs. (5) to (7), in matrix form eqs. (11) to
+//! (13), and their sum is eq. (14).
 
 use nalgebra::DMatrix;
 
 use crate::forward::{BispectralSheet, FacetModel, Fluorescing};
 
-/// Which light a facet RGB is made of, by how often it has been reflected from panel to panel.
+/// The light included in a facet RGB, by its number of reflections between the panels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bounces {
     /// All light.
     All,
-    /// Light of at most this many bounces; 0 is direct light alone.
+    /// Light of at most this many bounces; 0 is direct light only.
     First(u32),
-    /// As few bounces as leave out at most this share, in (0, 1), of any facet's RGB.
+    /// The least number of bounces that omits at most this fraction, in (0, 1), of any facet's RGB.
     Within(f64),
 }
 
-/// What counting some bounces only leaves out.
+/// The effect of omitting bounces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truncation {
-    /// Bounces that are counted.
+    /// Bounces that are included.
     pub count: u32,
-    /// Largest share of a facet's RGB that the others would add, in [0, 1].
+    /// Largest fraction of a facet's RGB that the others would add, in [0, 1].
     pub missing: f64,
 }
 
 impl Bounces {
-    /// RGB of every facet at exposure 1, facet by channel, and what it leaves out, if anything is asked to
-    /// be.
+    /// RGB of every facet at exposure 1, facet by channel, and what is omitted, if bounces are limited.
     ///
     /// # Source
     /// Deeb et al., eq. (14).
@@ -55,19 +54,19 @@ impl Bounces {
         self.counted(model.facet_rgb(reflectance), |count| model.facet_rgb_after(count, reflectance))
     }
 
-    /// The same of a sheet that fluoresces.
+    /// The same for a fluorescent sheet.
     #[must_use]
     pub fn fluorescing_rgb(self, sheet: &Fluorescing) -> (DMatrix<f64>, Option<Truncation>) {
         self.counted(sheet.facet_rgb(), |count| sheet.facet_rgb_after(count))
     }
 
-    /// The same of a sheet that is excited by all light that falls on it.
+    /// The same for a sheet excited by all light that falls on it.
     #[must_use]
     pub fn bispectral_rgb(self, sheet: &BispectralSheet) -> (DMatrix<f64>, Option<Truncation>) {
         self.counted(sheet.facet_rgb(), |count| sheet.facet_rgb_after(count))
     }
 
-    /// What counts of `all` light, of which `after` has that of more bounces.
+    /// The part of `all` light that counts; `after(n)` is the light of more than n bounces.
     fn counted(
         self,
         all: DMatrix<f64>,
@@ -84,7 +83,7 @@ impl Bounces {
     }
 }
 
-/// The least number that is enough, by doubling and halving: more is always enough, too.
+/// The least sufficient number, by doubling and bisection: every larger number is sufficient, too.
 fn least(enough: impl Fn(u32) -> bool) -> u32 {
     let mut high = 1_u32;
     while !enough(high) && high < u32::MAX {
@@ -102,7 +101,7 @@ fn least(enough: impl Fn(u32) -> bool) -> u32 {
     high
 }
 
-/// A facet without light misses nothing.
+/// A facet without light counts as complete.
 fn largest_share(part: &DMatrix<f64>, all: &DMatrix<f64>) -> f64 {
     let shares = part.iter().zip(all).filter(|(_, all)| **all > 0.0).map(|(part, all)| part / all);
     shares.fold(0.0, f64::max)

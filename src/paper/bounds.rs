@@ -1,13 +1,13 @@
-//! What an interior point method keeps within an interval: its variables, or combinations of them.
+//! Bounds of an interior point method on its variables, or on linear combinations of them.
 
 use nalgebra::{DMatrix, DVector};
 
-/// One interval for all that is bounded.
+/// One interval for all bounded quantities.
 #[derive(Clone, Debug)]
 pub struct Bounds {
     low: f64,
     high: f64,
-    /// What is bounded in place of the variables x: the product of this with x.
+    /// If present, the product of this matrix with the variables x is bounded in place of x.
     combinations: Option<DMatrix<f64>>,
 }
 
@@ -27,18 +27,18 @@ impl Bounds {
         self.high - self.low
     }
 
-    /// What is bounded, at x or along a step of it.
+    /// The bounded quantities at x, or their change along a step.
     pub fn of(&self, x: &DVector<f64>) -> DVector<f64> {
         self.combinations.as_ref().map_or_else(|| x.clone(), |combinations| combinations * x)
     }
 
-    /// Its distances to the lower and upper bound.
+    /// Distances of the bounded quantities to the lower and upper bound.
     pub fn gaps(&self, x: &DVector<f64>) -> [DVector<f64>; 2] {
         let bounded = self.of(x);
         [bounded.map(|value| value - self.low), bounded.map(|value| self.high - value)]
     }
 
-    /// Derivatives by x of what has `slopes` by what is bounded.
+    /// Derivatives with respect to x of a function with `slopes` with respect to the bounded quantities.
     pub fn by_variable(&self, slopes: DVector<f64>) -> DVector<f64> {
         match &self.combinations {
             Some(combinations) => combinations.tr_mul(&slopes),
@@ -46,7 +46,7 @@ impl Bounds {
         }
     }
 
-    /// Adds to a Hessian by x what has `curvature` by what is bounded.
+    /// Adds `curvature` with respect to the bounded quantities to a Hessian with respect to x.
     pub fn add_curvature(&self, hessian: &mut DMatrix<f64>, curvature: &DVector<f64>) {
         match &self.combinations {
             Some(combinations) => {
@@ -56,7 +56,7 @@ impl Bounds {
         }
     }
 
-    /// A point well within the bounds where that is easy to find: near x, if x itself is bounded.
+    /// A point well within the bounds, if easy to find: one near x, if x itself is bounded.
     pub fn within(&self, x: DVector<f64>) -> DVector<f64> {
         let inside = 1e-3 * self.width();
         match self.combinations {

@@ -1,4 +1,4 @@
-//! Laws that the form factors of any fold obey, measured on a kernel however it was found.
+//! Physical laws of the form factors of any fold, tested on a kernel from any method.
 
 use std::fmt;
 
@@ -9,25 +9,25 @@ use super::fold_kernel::FoldKernel;
 use crate::response::{ModeLight, PanelOperator, Response};
 use crate::solve::{Eigen, dot};
 
-/// Relative disagreement that rounding may leave.
+/// Relative deviation attributed to rounding.
 const ROUNDING: f64 = 1e-12;
-/// Residual to which the bounces are solved for their energy balance.
+/// Residual to which the bounces are solved for the energy balance.
 const SOLVED: f64 = 1e-13;
-/// Most Lanczos steps for the spectral radius; a 1° fold takes about 30.
+/// Most Lanczos steps for the spectral radius; a 1° fold takes some 30.
 const STEPS_MAX: usize = 300;
 
-/// A law, what was measured, and what it asks for.
+/// A law, the measured number, and its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
-    /// What is measured.
+    /// The measured quantity.
     pub name: &'static str,
     /// Its value; infinite where the bounces diverge.
     pub measured: f64,
-    /// What it has to be.
+    /// Its bound.
     pub bound: Bound,
 }
 
-/// What a law asks of a number.
+/// The bound of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
     /// This or more.
@@ -36,7 +36,7 @@ pub enum Bound {
     AtMost(f64),
     /// Less than this.
     Below(f64),
-    /// Nothing: the number is for the reader.
+    /// None: the number is for information.
     Nothing,
 }
 
@@ -65,7 +65,7 @@ impl fmt::Display for Bound {
     }
 }
 
-/// One line of a report: law, measured, bound, `ok` or `BROKEN`.
+/// One line of a report: law, measured number, bound, `ok` or `BROKEN`.
 impl fmt::Display for Law {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let measured = match self.measured {
@@ -81,10 +81,10 @@ impl fmt::Display for Law {
     }
 }
 
-/// Measures every law on `kernel`, and its distance from the `exact` kernel of the same facets.
+/// Tests every law on `kernel`, and measures its distance from the `exact` kernel of the same facets.
 ///
-/// Nothing is as large as the dense matrix. Reciprocity holds by construction, since one number stands for
-/// both directions: its line shows the rounding of the form factors read from it.
+/// The dense matrix is never formed. Reciprocity holds by construction, since one number represents both
+/// directions: its line shows the rounding of the form factors derived from it.
 ///
 /// # Example
 /// ```
@@ -116,12 +116,12 @@ pub fn check(kernel: &FoldKernel, exact: &FoldKernel) -> Vec<Law> {
     ]
 }
 
-/// Largest absolute eigenvalue of the matrix of eq. (10): the share of its light that the slowest mode hands
-/// on.
+/// Largest absolute eigenvalue of the matrix of eq. (10): the fraction of its light that the slowest mode
+/// passes on.
 ///
-/// K = [0 F; Fᵀ 0] has the singular values of F, which Lanczos' method finds from the products alone (Golub
-/// and Van Loan, *Matrix Computations*, section 10.1). Without reorthogonalisation eigenvalues repeat, but
-/// the largest stays the largest.
+/// K = [0 F; Fᵀ 0] has the singular values of F, which the Lanczos method finds from products alone (Golub
+/// and Van Loan, *Matrix Computations*, section 10.1). Without reorthogonalisation eigenvalues are
+/// duplicated, but the largest is unaffected.
 #[must_use]
 pub fn spectral_radius(operator: &impl PanelOperator) -> f64 {
     let mut now = operator.uniform(0);
@@ -181,7 +181,7 @@ fn irreciprocity(kernel: &FoldKernel) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Share of its light that each facet of `panel` hands to the other.
+/// Fraction of its light that each facet of `panel` sends to the other panel.
 fn row_sums(operator: &FacetOperator, panel: usize) -> Vec<f64> {
     let (scale, across) = (operator.uniform(panel), operator.uniform(1 - panel));
     let mut sums = vec![0.0; scale.len()];
@@ -190,8 +190,8 @@ fn row_sums(operator: &FacetOperator, panel: usize) -> Vec<f64> {
     sums
 }
 
-/// Even light on two sheets of reflectance `r`: |received − absorbed − leaving|, relative to the received;
-/// infinite where the bounces diverge.
+/// For uniform light on two sheets of reflectance `r`: |received − absorbed − leaving|, relative to the
+/// received light; infinite where the bounces diverge.
 fn energy_imbalance(operator: &FacetOperator, row_sums: &[Vec<f64>; 2], r: f64) -> f64 {
     let Ok((response, _)) = Response::solve(&Dimmed { operator, r }, SOLVED) else { return f64::INFINITY };
     let (mut received, mut lost) = (0.0, 0.0);
@@ -206,12 +206,12 @@ fn energy_imbalance(operator: &FacetOperator, row_sums: &[Vec<f64>; 2], r: f64) 
     (received - lost).abs() / received
 }
 
-/// Largest difference of a form factor from the exact one.
+/// Largest difference between form factors and the exact ones.
 fn difference(kernel: &FoldKernel, exact: &FoldKernel) -> f64 {
     entries(kernel).zip(entries(exact)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// An operator with the reflectance in it: a kernel whose radius is beyond 1 still has an answer for dark
+/// An operator multiplied by the reflectance: even a kernel with a radius above 1 has a solution for dark
 /// sheets.
 struct Dimmed<'a> {
     operator: &'a FacetOperator<'a>,

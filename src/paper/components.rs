@@ -1,7 +1,7 @@
-//! Flat sheets: no bounces, so that colour is linear in reflectance, and a spectrum must be a combination of
-//! few components.
+//! Flat sheets: there are no bounces, so colour is linear in reflectance, and a spectrum must be a
+//! combination of a few components.
 //!
-//! What [`super::park`] and [`super::khan`] share; they differ in the components.
+//! Common parts of [`super::park`] and [`super::khan`], which differ in the components.
 
 use argmin::core::{CostFunction, Error as SolverError, Executor, Gradient, Hessian, State};
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -14,28 +14,28 @@ use crate::estimate::{Estimate, Exposure};
 use crate::forward::FacetModel;
 use crate::solve::Eigen;
 
-/// Just above rounding: where colour tells little of a spectrum, what is left of the barrier moves it by a
-/// million times that.
+/// Just above rounding: where colour hardly determines a spectrum, the remaining barrier shifts it by a
+/// million times this.
 const TOLERANCE: f64 = 2e-15;
-/// An eigenvalue below that share of the largest is rounding: the set has no such component.
+/// Eigenvalues below this fraction of the largest are rounding errors: the set has no such component.
 const ROUNDING: f64 = 1e-13;
-/// Peak of a spectrum whose scale the colour does not tell: the middle of what a reflectance can be.
+/// Peak of a spectrum whose scale the colour does not determine: the middle of the range of reflectances.
 const OPEN_PEAK: f64 = 0.5;
-/// Mean reflectance at which such a spectrum is sought: far enough from the upper bound.
+/// Mean reflectance at which such a spectrum is computed: far enough from the upper bound.
 const OPEN_MEAN: f64 = 0.02;
-/// A direction of the components known less than this share of the best is open.
+/// A direction of the components determined less well than this, relative to the best, is undetermined.
 const KNOWN: f64 = 1e-7;
 
 /// The colour of a flat sheet.
 #[derive(Clone, Debug)]
 pub struct FlatSheet {
-    /// What channels take of wavebands at exposure 1: channel by waveband.
+    /// Weights of wavebands in channels at exposure 1: channel by waveband.
     pub view: DMatrix<f64>,
     /// Value per channel.
     pub values: Vec<f64>,
-    /// Value of a perfect white diffuser facing the sun, in its strongest channel; if none is known, values
-    /// are divided by their sum, as the paper does where no chart is in the picture (section 5D), and the
-    /// scale of the spectrum stays open.
+    /// Value of a perfect white diffuser facing the sun, in its strongest channel; if unknown, values are
+    /// divided by their sum, as in the paper for pictures without a chart (section 5D), and the scale of the
+    /// spectrum is undetermined.
     pub exposure: Option<f64>,
 }
 
@@ -43,7 +43,7 @@ impl FlatSheet {
     /// The mean colour of the facets of a sample.
     ///
     /// # Errors
-    /// [`Error::Field`] if facets or channels do not fit the scene, the sheet is folded, or the exposure is
+    /// [`Error::Field`] if facets or channels do not match the scene, the sheet is folded, or the exposure is
     /// to be fitted.
     pub fn new(model: &FacetModel, measured: &Measured, exposure: Exposure) -> Result<Self> {
         let exposure = match exposure {
@@ -65,14 +65,14 @@ impl FlatSheet {
         Ok(Self { values: (0..view.nrows()).map(mean).collect(), view, exposure })
     }
 
-    /// An exposure at which the spectrum can be sought.
+    /// An exposure for computing the spectrum.
     fn trial_exposure(&self) -> f64 {
         let bright = || self.values.iter().sum::<f64>() / (OPEN_MEAN * self.view.sum());
         self.exposure.unwrap_or_else(bright)
     }
 }
 
-/// `Σ rrᵀ / n` of n spectra: waveband by waveband. No mean is subtracted.
+/// `Σ rrᵀ / n` of n spectra: waveband by waveband. The mean is not subtracted.
 #[must_use]
 pub fn autocorrelation(spectra: &[Vec<f64>]) -> DMatrix<f64> {
     let columns: Vec<_> = spectra.iter().map(|spectrum| DVector::from_column_slice(spectrum)).collect();
@@ -80,15 +80,15 @@ pub fn autocorrelation(spectra: &[Vec<f64>]) -> DMatrix<f64> {
     &all * all.transpose() / spectra.len() as f64
 }
 
-/// Spectra that a reflectance is combined of, a column each.
+/// Spectra of which a reflectance is a linear combination, one per column.
 pub struct Components(DMatrix<f64>);
 
 impl Components {
-    /// What `spectrum` makes of the `count` largest eigenvalues. Sets, cameras and lights have no negative
-    /// numbers, so that the first component has one sign (Perron and Frobenius): here it is positive.
+    /// Applies `spectrum` to the `count` largest eigenvalues. Sets, cameras and lights have no negative
+    /// numbers, so the first component has one sign (Perron and Frobenius): here it is positive.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if there are fewer components, or if the first one is zero somewhere.
+    /// [`Error::Numeric`] if there are fewer components, or if the first one has a zero.
     pub fn leading(
         eigen: Eigen,
         count: usize,
@@ -117,7 +117,7 @@ impl Components {
         Ok(Self(components))
     }
 
-    /// A grey within the bounds, as near as the first component comes to one.
+    /// A grey within the bounds, as nearly as the first component permits.
     fn grey(&self) -> DVector<f64> {
         let mut start = DVector::zeros(self.0.ncols());
         start[0] = 0.5 / self.0.column(0).max();
@@ -125,11 +125,11 @@ impl Components {
     }
 }
 
-/// The combination within 0 to 1 that comes nearest to the sheet's values, white being 1, plus `smoothness`
-/// times its squared second differences.
+/// The combination between 0 and 1 that minimises the squared distance to the sheet's values, white being 1,
+/// plus `smoothness` times its squared second differences.
 ///
 /// # Errors
-/// [`Error::Numeric`] if values and smoothness leave a component open, or the solver fails.
+/// [`Error::Numeric`] if values and smoothness leave a component undetermined, or the solver fails.
 pub fn estimate(components: &Components, sheet: &FlatSheet, smoothness: f64) -> Result<Estimate> {
     let exposure = sheet.trial_exposure();
     let space = Space::of(components, sheet, exposure, smoothness)?;
@@ -165,12 +165,12 @@ pub fn estimate(components: &Components, sheet: &FlatSheet, smoothness: f64) -> 
     })
 }
 
-/// Combinations of components, in coordinates in which `|ρ/e − Pr|² + α|Dr|²` is a squared distance: all
-/// directions are known equally well, which no solver minds.
+/// Combinations of components, in coordinates in which `|ρ/e − Pr|² + α|Dr|²` is a squared distance: the
+/// problem is perfectly conditioned.
 struct Space {
-    /// Spectrum of every coordinate: waveband by coordinate.
+    /// Spectrum of each coordinate: waveband by coordinate.
     spectra: DMatrix<f64>,
-    /// The least of the objective where nothing is bounded.
+    /// The unconstrained minimum of the objective.
     free: DVector<f64>,
     /// A point within the bounds.
     start: DVector<f64>,

@@ -1,12 +1,12 @@
-//! Conjugate gradients, for systems that are known by their products alone.
+//! Conjugate gradients, for systems defined by their products alone.
 
 use nalgebra::DVector;
 
-/// More iterations than any well-posed system of these tools takes.
+/// More iterations than any well-posed system of these tools needs.
 const ITERATION_LIMIT: usize = 10_000;
 
-/// Solves `A·x = b`, A symmetric and positive definite, `product(v)` being `A·v`, until the residual norm is
-/// at most `tolerance` times that of `b`; none if 10000 iterations do not get there.
+/// Solves `A·x = b`, with A symmetric and positive definite and `product(v)` returning `A·v`, until the
+/// residual norm is at most `tolerance` times that of `b`; none after 10000 iterations.
 ///
 /// # Source
 /// Golub and Van Loan, *Matrix Computations*, algorithm 11.3.3.

@@ -1,4 +1,4 @@
-//! The paper's model: every facet is one flat patch of even radiance.
+//! The paper's model: each facet is one flat patch of uniform radiance.
 
 use nalgebra::{DMatrix, DMatrixView};
 use rayon::prelude::*;
@@ -8,12 +8,13 @@ use super::spectra::Spectra;
 use crate::geometry::FacetGrid;
 use crate::response::PanelOperator;
 
-/// Columns from which products by FFT along the crease are faster than by the entries themselves.
+/// Number of columns from which products by FFT along the crease are faster than direct ones.
 const FFT_FROM: usize = 16;
-/// Unknowns that are worth a second thread: with fewer, one is done before it has woken up.
+/// Number of unknowns from which a second thread pays: smaller problems are finished before it has started.
 const THREADS_FROM: usize = 1000;
 
-/// Exchange between facets, eq. (10), as products with the distinct entries: the dense matrix is not formed.
+/// Exchange between facets, eq. (10), as products with the distinct entries, without forming the dense
+/// matrix.
 pub struct FacetOperator<'a> {
     kernel: &'a FoldKernel,
     facets: FacetGrid,
@@ -23,7 +24,8 @@ pub struct FacetOperator<'a> {
 }
 
 impl<'a> FacetOperator<'a> {
-    /// The operator of a kernel whose patches are the facets or divide each into as many of equal size.
+    /// The operator of a kernel whose patches are the facets, or divide each facet into equally many of equal
+    /// size.
     #[must_use]
     pub fn new(kernel: &'a FoldKernel, facets: FacetGrid) -> Self {
         let FacetGrid { rows, cols } = kernel.facets();
@@ -32,8 +34,8 @@ impl<'a> FacetOperator<'a> {
         Self { kernel, facets, spectra, scale }
     }
 
-    /// `out = Σ A·F·x`: light on the facets of row `i` of `panel`, by the entries themselves; `x` has a
-    /// column per row of facets.
+    /// `out = Σ A·F·x`: light on the facets of row `i` of `panel`, by direct products; `x` has one column per
+    /// row of facets.
     fn add_up(&self, panel: usize, i: usize, x: &DMatrix<f64>, out: &mut [f64]) {
         for (j, x) in x.column_iter().enumerate() {
             let (x, factors) = (x.as_slice(), self.kernel.shifts_from(panel, i, j));
@@ -64,7 +66,7 @@ impl PanelOperator for FacetOperator<'_> {
         }
         let transformed = self.spectra.as_ref().map(|spectra| (spectra, spectra.transform(&exitance)));
         let rows = out.par_chunks_exact_mut(cols).enumerate();
-        // Small grids are done before a second thread has woken up.
+        // small grids are finished before a second thread has started
         rows.with_min_len(if x.len() < THREADS_FROM { x.len() } else { 1 }).for_each(|(i, out)| {
             out.fill(0.0);
             match &transformed {

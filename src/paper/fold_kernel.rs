@@ -1,4 +1,4 @@
-//! What the facets of a fold exchange: the distinct entries of the kernel matrix, however they were found.
+//! The exchange between the facets of a fold: the distinct entries of the kernel matrix, from any method.
 
 use std::ops::Range;
 
@@ -10,14 +10,14 @@ use crate::error::Result;
 use crate::geometry::{FacetGrid, Fold};
 use crate::room;
 
-/// Entries that are worth a thread of their own: a few thousand are done before a second one has started.
+/// Entries that justify another thread: a few thousand are finished before it has started.
 const ENTRIES_A_THREAD: usize = 2000;
 
 /// The distinct form factors of a fold, K of eq. (10).
 ///
-/// Shift along the crease, mirror image and reciprocity leave `rows² · cols` numbers of the
-/// `(2 · rows · cols)²` of the full matrix; panels of one size leave `rows (rows + 1)/2 · cols`. Lengths are
-/// in units of the facet's width along the crease.
+/// Translation along the crease, mirror symmetry and reciprocity leave `rows² · cols` numbers of the `(2 ·
+/// rows · cols)²` in the full matrix; panels of equal size leave `rows (rows + 1)/2 · cols`. Lengths are in
+/// units of the facet's width along the crease.
 #[derive(Clone, Debug)]
 pub struct FoldKernel {
     facets: FacetGrid,
@@ -28,13 +28,13 @@ pub struct FoldKernel {
 }
 
 impl FoldKernel {
-    /// The kernel whose entries for rows `i` of panel 0 and `j` of panel 1 are what `exchange(i, j, shifts)`
-    /// fills in for every shift along the crease: area times form factor in units of the facet width squared.
-    /// Where the panels are alike, only `i ≤ j` is asked for. No thread is woken for fewer than
-    /// `pairs_a_thread` pairs of rows.
+    /// The kernel whose entries for rows `i` of panel 0 and `j` of panel 1 are filled in by `exchange(i, j,
+    /// shifts)` for every shift along the crease: area times form factor in units of the facet width squared.
+    /// If the panels are alike, only `i ≤ j` is requested. Fewer than `pairs_a_thread` pairs of rows do not
+    /// use another thread.
     ///
     /// # Returns
-    /// The kernel, and what `exchange` said about each pair of rows.
+    /// The kernel, and the result of `exchange` for each pair of rows.
     #[must_use]
     pub fn from_exchange<T: Send>(
         fold: &Fold,
@@ -52,10 +52,10 @@ impl FoldKernel {
         (Self { facets, row_edges: row_edges(fold), symmetric, exchange: entries }, returned)
     }
 
-    /// Whether there is room for the kernel of `fold`.
+    /// Checks that the kernel of `fold` fits into memory.
     ///
     /// # Errors
-    /// [`Error::Memory`](crate::Error::Memory) if there is not.
+    /// [`Error::Memory`](crate::Error::Memory) if it does not.
     pub fn check_room(fold: &Fold) -> Result<()> {
         let FacetGrid { rows, cols } = fold.facets();
         let pairs = if fold.is_symmetric() { rows * (rows + 1) / 2 } else { rows * rows };
@@ -63,8 +63,8 @@ impl FoldKernel {
         room::ask(bytes as u64, "form factors", "take fewer facets")
     }
 
-    /// The same from a function of the two rows' extents away from the crease that takes a microsecond per
-    /// entry.
+    /// The same from a function of the two rows' ranges of distance from the crease, which takes a
+    /// microsecond per entry.
     #[must_use]
     pub fn from_rows(fold: &Fold, exchange: impl Fn(&Range<f64>, &Range<f64>, &mut [f64]) + Sync) -> Self {
         let [rows0, rows1] = row_ranges(fold);
@@ -97,12 +97,12 @@ impl FoldKernel {
         self.exchange.column(self.pair(i, j)).data.into_slice()
     }
 
-    /// The entries of every pair of rows that is kept, in their order.
+    /// The entries of every stored pair of rows, in order.
     pub(super) fn all_shifts(&self) -> impl IndexedParallelIterator<Item = &[f64]> {
         self.exchange.as_slice().par_chunks_exact(self.facets.cols)
     }
 
-    /// Where a pair of rows is among those kept.
+    /// Index of a pair of rows among those stored.
     pub(super) fn pair(&self, i: usize, j: usize) -> usize {
         let rows = self.facets.rows;
         if self.symmetric {
@@ -132,7 +132,8 @@ impl FoldKernel {
         if panel == 0 { self.shifts(i, j) } else { self.shifts(j, i) }
     }
 
-    /// Share of its light that a facet in row `i`, column `col` of `panel` hands to the other, below 1.
+    /// Fraction of its light that a facet in row `i`, column `col` of `panel` sends to the other panel, below
+    /// 1.
     #[must_use]
     pub fn row_sum(&self, panel: usize, i: usize, col: usize) -> f64 {
         let FacetGrid { rows, cols } = self.facets;
@@ -156,13 +157,13 @@ impl FoldKernel {
     }
 }
 
-/// Ends of the facet rows of both panels in units of the facet width.
+/// Boundaries of the facet rows of both panels in units of the facet width.
 fn row_edges(fold: &Fold) -> [Vec<f64>; 2] {
     let facet = fold.width() / fold.facets().cols as f64;
     fold.row_edges().map(|edges| edges.iter().map(|edge| edge / facet).collect())
 }
 
-/// Where the facet rows of both panels begin and end, in units of the facet width.
+/// Ranges of the facet rows of both panels, in units of the facet width.
 pub(super) fn row_ranges(fold: &Fold) -> [Vec<Range<f64>>; 2] {
     row_edges(fold).map(|edges| edges.windows(2).map(|ends| ends[0]..ends[1]).collect())
 }

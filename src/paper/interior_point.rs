@@ -1,7 +1,7 @@
-//! Minimisation within bounds by a primal-dual interior point method, as an argmin solver.
+//! Bounded minimisation by a primal-dual interior point method, as an argmin solver.
 //!
-//! Newton's method on the optimality conditions of the logarithmic barrier, whose weight falls with the gap
-//! between the variables and their multipliers; steps stop short of the bounds.
+//! Newton's method on the optimality conditions of the logarithmic barrier, whose weight decreases with the
+//! gap between the variables and their multipliers; steps stop short of the bounds.
 //!
 //! ## Reference
 //! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 19.2 and 19.3.
@@ -14,18 +14,18 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::bounds::Bounds;
 
-/// Share of the way to the bounds that a step may go.
+/// Largest fraction of the distance to the bounds that a step may take.
 const TO_BOUNDARY: f64 = 0.995;
-/// How far below the mean gap the barrier aims.
+/// Target of the barrier relative to the mean gap.
 const CENTERING: f64 = 0.1;
-/// Share of the decrease that the slope promises which a step must bring.
+/// Least decrease of a step, relative to that predicted by the slope.
 const SUFFICIENT: f64 = 1e-4;
 
 /// State of an argmin run of this solver.
 pub type State = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64>;
 
-/// Primal-dual interior point solver for `min f(x)`, `low ≤ x ≤ high`, one interval for all variables or for
-/// all of some combinations of them.
+/// Primal-dual interior point solver for `min f(x)`, `low ≤ x ≤ high`, with one interval for all variables or
+/// for linear combinations of them.
 ///
 /// # Example
 /// ```
@@ -86,7 +86,7 @@ impl InteriorPoint {
         }
     }
 
-    /// The same solver with bounds on the entries of `combinations · x`; it must start within them.
+    /// The same solver with bounds on the entries of `combinations · x`; the start must be within them.
     #[must_use]
     pub fn on_combinations(mut self, combinations: DMatrix<f64>) -> Self {
         self.bounds = self.bounds.on_combinations(combinations);
@@ -118,7 +118,7 @@ impl InteriorPoint {
         complementarity.fold(stationarity, f64::max)
     }
 
-    /// Newton's step of x, and with it of what is bounded and of the multipliers.
+    /// The Newton step of x, and the corresponding steps of the bounded quantities and the multipliers.
     fn step(
         &self,
         gradient: &DVector<f64>,
@@ -138,7 +138,7 @@ impl InteriorPoint {
     }
 }
 
-/// Solves with a symmetric matrix, made positive definite by a growing diagonal if it is not.
+/// Solves a symmetric system, made positive definite by an increasing diagonal if necessary.
 fn positive_solve(matrix: DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
     let scale = matrix.diagonal().amax().max(f64::MIN_POSITIVE);
     let mut shift = 0.0;
@@ -176,7 +176,7 @@ where
         }
         let gradient = problem.problem("gradient_count", |p| p.gradient(&x))?;
         let cost = problem.problem("cost_count", |p| p.cost(&x))?;
-        // Multipliers of a central path that starts where the gradient and the barrier are of one size.
+        // multipliers of a central path that starts where gradient and barrier are of equal size
         let mu = gradient.amax().max(self.tolerance) * 0.1 * self.bounds.width();
         self.multipliers = self.bounds.gaps(&x).map(|gap| gap.map(|g| mu / g));
         Ok((state.param(x).gradient(gradient).cost(cost), None))
@@ -236,7 +236,7 @@ mod tests {
 
     use super::*;
 
-    /// Rosenbrock's valley, whose free minimum is (1, 1).
+    /// Rosenbrock's valley, whose unconstrained minimum is (1, 1).
     struct Rosenbrock;
 
     impl CostFunction for Rosenbrock {
@@ -276,8 +276,8 @@ mod tests {
         run.state().get_best_param().unwrap().as_slice().to_vec()
     }
 
-    /// With bounds on x + y and x − y, that is on the edge x + y = 1 of a turned square: `x = 1 − y`, least
-    /// where `scipy.optimize.minimize_scalar(lambda x: (1 - x)**2 + 100*(1 - x - x*x)**2)` finds it.
+    /// With bounds on x + y and x − y, the minimum is on the edge x + y = 1 of a rotated square: `x = 1 − y`,
+    /// at the minimum of `scipy.optimize.minimize_scalar(lambda x: (1 - x)**2 + 100*(1 - x - x*x)**2)`.
     #[test]
     fn bounds_on_combinations() {
         let turned = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 1.0, -1.0]);
@@ -303,7 +303,7 @@ mod tests {
 
     #[test]
     fn a_minimum_on_a_bound_and_one_inside() {
-        // On x ≤ 0.8 the valley ends at (0.8, 0.64), cost (1 − 0.8)².
+        // for x ≤ 0.8 the valley ends at (0.8, 0.64), cost (1 − 0.8)²
         for (low, high, start, [x, y]) in
             [(0.0, 0.8, 0.1, [0.8, 0.64]), (-2.0, 2.0, -1.5, [1.0, 1.0]), (1.2, 2.0, 1.9, [1.2, 1.44])]
         {

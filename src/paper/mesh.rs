@@ -1,4 +1,4 @@
-//! The bounces between facets, or patches that divide them.
+//! The bounces between facets, or between patches that divide them.
 
 use super::check::spectral_radius;
 use super::{FacetOperator, FoldKernel, Method};
@@ -7,11 +7,11 @@ use crate::geometry::{FacetGrid, Fold};
 use crate::kernel::mesh::{self, Accuracy, Mesh};
 use crate::response::Response;
 
-/// Solves the bounces on `fold` under even light, for every reflectance, on `mesh`, to `tolerance`, with form
-/// factors found by `method`.
+/// Solves the bounces on `fold` in uniform light, for every reflectance, on `mesh`, to `tolerance`, with form
+/// factors by `method`.
 ///
 /// # Errors
-/// As [`mesh::respond`]; a mesh that does not divide into the facets, a method other than exact on undivided
+/// As [`mesh::respond`]; a mesh that does not divide the facets, a method other than exact on undivided
 /// panels, or one whose kernel makes the bounces diverge.
 pub fn respond(method: Method, fold: &Fold, mesh: Mesh, tolerance: f64) -> Result<(Response, Accuracy)> {
     match mesh {
@@ -61,7 +61,7 @@ fn respond_patches(
     Ok((response, Accuracy { unknowns: patches.len(), facet_mean_error: None, residual, kernel }))
 }
 
-/// Refuses a kernel with which white sheets would shine.
+/// Refuses a kernel with which bounces on white sheets would grow.
 fn check_convergence(method: Method, operator: &FacetOperator) -> Result<()> {
     let radius = spectral_radius(operator);
     if radius < 1.0 {

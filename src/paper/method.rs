@@ -8,10 +8,10 @@ use super::{form_factors, midpoint};
 use crate::geometry::Fold;
 use crate::kernel::mesh::KernelSource;
 
-/// How form factors are found.
+/// Method for the form factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Averaged over both facets, right to rounding.
+    /// Averaged over both facets, exact to rounding.
     Exact,
     /// Estimated from samples, as in the paper.
     MonteCarlo(MonteCarlo),
@@ -20,7 +20,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// The form factors between the facets of `fold`, and the largest standard error of one where they are
+    /// The form factors between the facets of `fold`, and the largest standard error of one if they are
     /// estimates.
     ///
     /// # Example
@@ -47,7 +47,7 @@ impl Method {
 }
 
 impl Method {
-    /// As `vkernel --method` has it.
+    /// Its name for `vkernel --method`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -57,7 +57,7 @@ impl Method {
         }
     }
 
-    /// What is to be said of a kernel that it found.
+    /// The description of a kernel from this method.
     pub(super) fn source(self, entry_sd: Option<f64>, kernel: &FoldKernel) -> KernelSource {
         let samples = match self {
             Self::MonteCarlo(estimate) => Some(estimate.samples()),

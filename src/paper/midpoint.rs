@@ -1,15 +1,15 @@
-//! Form factors from facet centres: eq. (2) as printed, times area over pi, as eq. (10) has it.
+//! Form factors from facet centres: eq. (2) as printed, times area over pi, as in eq. (10).
 //!
-//! Right for facets far apart. Facets that meet at the crease get too much at any size, since centres and
-//! distances shrink together: at 45° with 10 x 10 facets a facet hands on 2.09 times its light, and the
-//! bounces diverge.
+//! Accurate for facets far apart. Facets that meet at the crease exchange too much at any size, since
+//! distances from centre to centre shrink with them: at 45° with 10 x 10 facets a facet passes on 2.09 times
+//! its light, and the bounces diverge.
 
 use std::f64::consts::PI;
 
 use super::fold_kernel::FoldKernel;
 use crate::geometry::Fold;
 
-/// The form factors of `fold` with the kernel of eq. (2) taken at the facets' centres.
+/// The form factors of `fold` with the kernel of eq. (2) evaluated at the facets' centres.
 ///
 /// # Source
 /// Deeb et al., eqs. (2) and (10).
@@ -38,7 +38,7 @@ pub fn form_factors(fold: &Fold) -> FoldKernel {
 #[derive(Clone, Copy, Debug)]
 pub struct PointKernel {
     scale: f64,
-    /// `2(1 − cosθ)`, which would lose digits as a difference when θ is small.
+    /// `2(1 − cosθ)`, computed without cancellation for small θ.
     spread: f64,
 }
 

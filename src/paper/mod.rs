@@ -1,12 +1,12 @@
-//! The method as published, and its rivals: what the paper compares with, and what this crate is compared
-//! with.
+//! The published method and its rivals: those with which the paper compares, and with which this crate is
+//! compared.
 //!
-//! The rest of the crate does without this room: it solves undivided panels where the paper divides them into
-//! facets, and weighs classes of spectra where the paper asks for smoothness. Here are the form factors
-//! between facets, eq. (10), by every [`Method`], with the laws that they should obey ([`check`]) and the
-//! bounces on them ([`respond`]); light [bounce by bounce](bounces) and [facet by facet](nonuniform); the
-//! paper's estimator ([`smooth`]) and those of flat sheets ([`park`], [`khan`]). The tools come in by this
-//! door, and records that say how a scene was made.
+//! The rest of the crate does not depend on this module: it solves undivided panels where the paper divides
+//! them into facets, and weights classes of spectra where the paper imposes smoothness. This module contains
+//! the form factors between facets, eq. (10), by every [`Method`], with the laws that they should obey
+//! ([`check`]) and the bounces on them ([`respond`]); light [bounce by bounce](bounces) and [facet by
+//! facet](nonuniform); the paper's estimator ([`smooth`]) and those for flat sheets ([`park`], [`khan`]).
+//! Only the tools use it, and the records on how a scene was made.
 
 pub mod bounces;
 mod bounds;

@@ -1,10 +1,11 @@
-//! Form factors by Monte Carlo, as the paper estimates its kernel, and with rays instead of pairs of points.
+//! Form factors by Monte Carlo, as in the paper's estimate of its kernel, and by rays in place of pairs of
+//! points.
 //!
-//! Pairs of points spread evenly over two facets have an infinite variance where the facets meet: with ρ the
-//! distance to the point they share, the squared kernel of eq. (2) grows as ρ⁻⁴ and the area elements leave ∫
-//! ρ⁻² dρ. The mean still converges, but slower than the standard error computed from the same samples says.
-//! Rays that leave a facet under the cosine law only have to be counted where they land: the variance is that
-//! of a proportion.
+//! Pairs of points distributed uniformly over two facets have an infinite variance if the facets meet: with ρ
+//! the distance to their common point, the squared kernel of eq. (2) grows as ρ⁻⁴ and the area elements leave
+//! ∫ ρ⁻² dρ. The mean still converges, but more slowly than the standard error from the same samples
+//! suggests. Rays that leave a facet under the cosine law are simply counted where they land: the variance is
+//! that of a proportion.
 
 use ndarray::parallel::prelude::*;
 use ndarray::{Array4, ArrayViewMut2, Axis};
@@ -17,20 +18,20 @@ use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold};
 use crate::kernel::mesh::Samples;
 
-/// Samples that are worth a thread of their own: fewer are done before a second thread has started.
+/// Samples that justify another thread: fewer are finished before it has started.
 const SAMPLES_A_THREAD: usize = 20_000;
 
-/// What a sample is.
+/// Definition of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
-    /// A pair of points, spread evenly over both facets, for each distinct entry: the paper's way.
+    /// A pair of points, distributed uniformly over both facets, for each distinct entry, as in the paper.
     Area,
     /// A ray that leaves a facet under the cosine law, for each row of facets.
     Cosine,
 }
 
 impl Sampling {
-    /// As `vkernel --sampling` has it.
+    /// Its name for `vkernel --sampling`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -49,11 +50,11 @@ pub struct MonteCarlo {
 }
 
 impl MonteCarlo {
-    /// An estimate from `samples` samples; the same `seed` gives the same on every machine and any number of
-    /// threads.
+    /// An estimate from `samples` samples; the same `seed` gives identical results on every machine and with
+    /// any number of threads.
     ///
     /// # Errors
-    /// Fewer than two samples, which have no spread.
+    /// Fewer than two samples, whose variance is undefined.
     pub fn new(sampling: Sampling, samples: u32, seed: u64) -> Result<Self> {
         if samples < 2 {
             let problem = format!("{samples} is too few for a standard error");
@@ -62,19 +63,19 @@ impl MonteCarlo {
         Ok(Self { sampling, samples, seed })
     }
 
-    /// What a sample is.
+    /// Definition of a sample.
     #[must_use]
     pub fn sampling(&self) -> Sampling {
         self.sampling
     }
 
-    /// What the estimate is made from.
+    /// The samples of the estimate.
     #[must_use]
     pub fn samples(&self) -> Samples {
         Samples { sampling: self.sampling.name(), count: self.samples, seed: self.seed }
     }
 
-    /// The form factors of `fold`, and the largest standard error of one, from the spread of the samples.
+    /// The form factors of `fold`, and the largest standard error of one, from the scatter of the samples.
     ///
     /// # Source
     /// Deeb et al., section 5A; Malley's method for rays (Pharr et al., *Physically Based Rendering*, 4th
@@ -98,7 +99,7 @@ impl MonteCarlo {
         (kernel, sds.into_iter().fold(0.0, f64::max))
     }
 
-    /// Random numbers of their own for each part of the work.
+    /// An independent random number generator for each part of the work.
     fn generator(&self, part: usize) -> ChaCha8Rng {
         let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
         generator.set_stream(part as u64);
@@ -143,14 +144,13 @@ impl MonteCarlo {
         (mean, ((squares / count - mean * mean).max(0.0) / (count - 1.0)).sqrt())
     }
 
-    /// Rays from every row; those between two rows count in both directions, weighted so that the variance is
-    /// least.
+    /// Rays from every row; those between two rows count in both directions, weighted for minimum variance.
     fn by_rays(&self, fold: &Fold) -> (FoldKernel, Vec<f64>) {
         let (hits, rows) = (self.hits(fold), row_ranges(fold));
         let (count, last_panel) = (f64::from(self.samples), hits.len_of(Axis(0)) - 1);
         FoldKernel::from_exchange(fold, SAMPLES_A_THREAD.div_ceil(fold.facets().cols), |i, j, shifts| {
             let [height0, height1] = [&rows[0][i], &rows[1][j]].map(|row| row.end - row.start);
-            // A row of a symmetric fold and its mirror image share their rays.
+            // a row of a symmetric fold and its mirror image share their rays
             let same = if last_panel == 0 && i == j { 2.0 } else { 1.0 };
             let mut largest: f64 = 0.0;
             for (k, value) in shifts.iter_mut().enumerate() {
@@ -165,8 +165,8 @@ impl MonteCarlo {
         })
     }
 
-    /// Where the rays of each row of panel 0, and of panel 1 unless it is alike, land: by panel, row, row hit
-    /// and shift.
+    /// Counts of the rays from each row of panel 0, and of panel 1 unless the panels are alike: by panel,
+    /// row, row hit and shift.
     fn hits(&self, fold: &Fold) -> Array4<u32> {
         let panels = if fold.is_symmetric() { 1 } else { 2 };
         let (ranges, FacetGrid { rows, cols }) = (row_ranges(fold), fold.facets());
@@ -178,11 +178,10 @@ impl MonteCarlo {
                 let s = from.start + (from.end - from.start) * unit(&mut generator);
                 let x = unit(&mut generator);
                 let [along, away, up] = cosine_direction(&mut generator);
-                // The ray reaches the other panel's plane `reach·sinθ` further on, unless it leads away from
-                // it.
+                // the ray reaches the other panel's plane after `reach·sinθ`, unless it leads away from it
                 let reach = s / (up * cos - away * sin);
                 let t = reach * up;
-                // Both signs of the shift are alike, and so are x and 1 − x.
+                // positive and negative shifts are equivalent, and so are x and 1 − x
                 let shift = x + reach * sin * along.abs();
                 if (reach > 0.0) & (t < onto[rows - 1].end) & (shift < cols as f64) {
                     let row = onto.partition_point(|row| row.end <= t);
@@ -201,7 +200,8 @@ impl MonteCarlo {
     }
 }
 
-/// A number spread evenly over (0, 1), in steps of 2⁻³²: far finer than any count of samples resolves.
+/// A number uniformly distributed over (0, 1), in steps of 2⁻³²: much finer than any number of samples
+/// resolves.
 #[inline]
 fn unit(generator: &mut ChaCha8Rng) -> f64 {
     (f64::from(generator.next_u32()) + 0.5) * 2.0_f64.powi(-32)

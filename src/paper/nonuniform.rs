@@ -1,9 +1,9 @@
-//! Sheets whose reflectance differs from facet to facet: eq. (24) as it stands, one flat patch per facet.
+//! Sheets whose reflectance differs from facet to facet: eq. (24) as printed, with one flat patch per facet.
 //!
-//! A facet's own light E obeys `E = E₀ + K·R·E`. With S = √A·K·√A⁻¹, which is symmetric, and y = √R·√A·E this
-//! is `(I − √R·S·√R)·y = √R·√A·E₀`: symmetric, positive definite, and at ease with black facets. The panels
-//! see each other and not themselves, `√R·S·√R = [0 G; Gᵀ 0]`, so panel 1 drops out and `I − G·Gᵀ` is left,
-//! which takes half as many iterations.
+//! The irradiance E of facets obeys `E = E₀ + K·R·E`. With S = √A·K·√A⁻¹, which is symmetric, and y = √R·√A·E
+//! this is `(I − √R·S·√R)·y = √R·√A·E₀`: symmetric, positive definite, and well-defined for black facets.
+//! Panels see each other but not themselves, `√R·S·√R = [0 G; Gᵀ 0]`, so eliminating panel 1 leaves `I −
+//! G·Gᵀ`, which takes half as many iterations.
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 use rayon::prelude::*;
@@ -16,16 +16,16 @@ use crate::forward::{Lighting, seen_bands};
 use crate::response::{ModeLight, PanelOperator};
 use crate::surfaces::Exchange;
 
-/// Residual of the solution of a waveband, relative to the light.
+/// Residual of the solution in a waveband, relative to the light.
 const TOLERANCE: f64 = 1e-14;
-/// Wavebands solved before they are added up, always in the same order.
+/// Wavebands solved before they are summed, always in the same order.
 const BATCH: usize = 16;
 
-/// RGB of every facet at exposure 1, facet by channel, for a `reflectance` in [0, 1] of every facet and
-/// waveband; facet order panel, row, column. Wavebands that no sensor sees are not looked at.
+/// RGB of every facet at exposure 1, facet by channel, for a `reflectance` in [0, 1] for every facet and
+/// waveband; facet order panel, row, column. Wavebands to which no sensor responds are skipped.
 ///
 /// # Errors
-/// [`Error::Numeric`] if the bounces of a waveband do not end: a fold far narrower than 0.1°.
+/// [`Error::Numeric`] if the bounces in a waveband do not converge: a fold far narrower than 0.1°.
 ///
 /// # Source
 /// Deeb et al., eq. (24), that is eq. (15) in every waveband.
@@ -93,7 +93,7 @@ fn apply(operator: &FacetOperator, panel: usize, x: &DVector<f64>) -> DVector<f6
 /// The exchange between facets in one waveband.
 struct Waveband<'a> {
     operator: &'a FacetOperator<'a>,
-    /// Square roots of the reflectances of each panel.
+    /// Square roots of the reflectances on each panel.
     roots: [DVector<f64>; 2],
 }
 
@@ -104,13 +104,13 @@ impl<'a> Waveband<'a> {
         Self { operator, roots }
     }
 
-    /// `G·x` on panel 0, `Gᵀ·x` on panel 1, x being of the other panel.
+    /// `G·x` on panel 0, `Gᵀ·x` on panel 1, where x belongs to the other panel.
     fn hand_on(&self, panel: usize, x: &DVector<f64>) -> DVector<f64> {
         apply(self.operator, panel, &x.component_mul(&self.roots[1 - panel]))
             .component_mul(&self.roots[panel])
     }
 
-    /// Reflectance times irradiance of every facet in `direct` light, all bounces included.
+    /// Reflectance times irradiance of every facet in `direct` light, including all bounces.
     fn exitance(&self, direct: &[DVector<f64>; 2]) -> Result<DVector<f64>> {
         let [b0, b1] = [0, 1].map(|panel| self.roots[panel].component_mul(&direct[panel]));
         let right = b0 + self.hand_on(0, &b1);
@@ -125,11 +125,11 @@ impl<'a> Waveband<'a> {
     }
 }
 
-/// The same of any surface under `lights`, each one direct irradiance per patch and the camera's response to
-/// it.
+/// The same for any surface under `lights`, each with a direct irradiance per patch and the camera's response
+/// to it.
 ///
 /// # Errors
-/// [`Error::Numeric`] if the bounces of a waveband do not end.
+/// [`Error::Numeric`] if the bounces in a waveband do not converge.
 ///
 /// # Example
 /// ```
@@ -167,7 +167,7 @@ pub fn surface_rgb(
     Ok(rgb)
 }
 
-/// Reflectance times irradiance of every facet of a surface, one `reflectance` per facet.
+/// Reflectance times irradiance of every facet of a surface, with one `reflectance` per facet.
 fn surface_exitance(
     exchange: &(impl Exchange + ?Sized),
     direct: &DVector<f64>,

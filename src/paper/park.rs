@@ -1,4 +1,4 @@
-//! The estimator of Park and others for flat sheets, in one light or several: a few components, and
+//! The estimator of Park and others for flat sheets, in one or several lights: a few components, and
 //! smoothness.
 //!
 //! ## Reference
@@ -14,15 +14,15 @@ use crate::error::Result;
 use crate::estimate::Estimate;
 use crate::solve::Eigen;
 
-/// Components that the paper uses with three lights.
+/// Number of components in the paper, for three lights.
 pub const COMPONENTS: usize = 8;
-/// Weight of smoothness: with three lights and no noise the error on the 24 patches of a ColorChecker is
-/// least about there.
+/// Weight of smoothness: with three lights and no noise, near the minimum of the error on the 24 patches of a
+/// ColorChecker.
 pub const SMOOTHNESS: f64 = 1e-4;
 
 /// The combination of the first `count` principal components of a set of spectra, with reflectances from 0 to
-/// 1, that comes nearest to the sheet's values, white being 1, plus `smoothness` times its squared second
-/// differences.
+/// 1, that minimises the squared distance to the sheet's values, white being 1, plus `smoothness` times its
+/// squared second differences.
 ///
 /// `autocorrelation` is [`components::autocorrelation`] of the set.
 ///
@@ -54,7 +54,7 @@ pub fn estimate(
     components::estimate(&basis(autocorrelation, count)?, sheet, smoothness)
 }
 
-/// Eigenvectors of the largest eigenvalues. The mean of the set is not subtracted: the first one is close to
+/// Eigenvectors of the largest eigenvalues. The mean of the set is not subtracted; the first one is close to
 /// it.
 fn basis(autocorrelation: &DMatrix<f64>, count: usize) -> Result<Components> {
     Components::leading(Eigen::of_symmetric(autocorrelation.clone()), count, |eigen, k| {

@@ -1,4 +1,4 @@
-//! The paper's estimator: least squares and smoothness within bounds.
+//! The paper's estimator: least squares with smoothness, within bounds.
 //!
 //! Deeb et al., eq. (36), minimised by an interior point method as in the paper's section 4B.
 
@@ -15,21 +15,21 @@ use crate::estimate::Estimate;
 use crate::estimate::data::FacetData;
 use crate::solve::Termination;
 
-/// Weight of smoothness if none is given.
+/// Default weight of smoothness.
 pub const SMOOTHNESS: f64 = 1e-5;
-/// Least change of facets that counts, white being 1.
+/// Least significant change of facets, white being 1.
 pub const CUTOFF: f64 = 1e-8;
 const TOLERANCE: f64 = 1e-9;
 pub(super) const ITERATION_LIMIT: u64 = 300;
-/// Where the discrepancy principle looks for the weight of smoothness, and how often it halves that range of
-/// logarithms.
+/// Range of the weight of smoothness under the discrepancy principle, and number of bisections of its
+/// logarithm.
 const SMOOTHNESS_RANGE: [f64; 2] = [1e-9, 1.0];
 const BISECTIONS: usize = 10;
 
-/// Least residual of the facets, white being 1, plus `smoothness` times the squared second differences of the
-/// spectrum (step: one waveband), with every reflectance in (0, 1].
+/// Minimises the residual of the facets, white being 1, plus `smoothness` times the squared second
+/// differences of the spectrum (step: one waveband), with every reflectance in (0, 1].
 ///
-/// `start` is the reflectance from which it sets out.
+/// `start` is the initial reflectance.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the solver fails.
@@ -64,8 +64,8 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
     })
 }
 
-/// The estimate of the largest smoothness whose residuals are no larger than the noise, whose standard
-/// deviation is `noise_sd`, white being 1.
+/// The estimate with the largest smoothness whose residuals do not exceed the noise, with standard deviation
+/// `noise_sd`, white being 1.
 ///
 /// # Source
 /// Morozov's discrepancy principle: Hansen, *Discrete Inverse Problems* (2010), section 5.2.
@@ -87,7 +87,7 @@ pub fn estimate_by_discrepancy(data: &FacetData, noise_sd: f64, start: &[f64]) -
     Ok(best)
 }
 
-/// Why a run stopped.
+/// Reason why a run stopped.
 pub(super) fn termination(state: &interior_point::State, solver: &InteriorPoint) -> Termination {
     let gradient_norm = solver.violation();
     match state.get_termination_status() {
@@ -109,7 +109,7 @@ pub(super) fn second_difference_gram(bands: usize) -> DMatrix<f64> {
     differences.tr_mul(&differences)
 }
 
-/// Eq. (36) with Gauss and Newton's curvature.
+/// Eq. (36) with Gauss-Newton curvature.
 struct Objective<'a> {
     data: &'a FacetData<'a>,
     penalty: DMatrix<f64>,

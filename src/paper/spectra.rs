@@ -1,4 +1,4 @@
-//! Products along the crease by FFT: the exchange of two rows depends on the shift alone, so it is a
+//! Products along the crease by FFT: the exchange of two rows depends only on the shift, so it is a
 //! convolution.
 
 use std::sync::Arc;
@@ -12,13 +12,13 @@ use super::fold_kernel::FoldKernel;
 
 /// The kernel of every pair of rows, transformed along the crease.
 ///
-/// A row of facets is padded to twice its length, so that the convolution does not wrap around; a kernel that
-/// is the same to both sides has a real transform.
+/// A row of facets is padded to twice its length, so that the convolution does not wrap around; the kernel is
+/// symmetric, so its transform is real.
 pub struct Spectra {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
     cols: usize,
-    /// Frequency, 0 to `cols`, by pair of rows (as [`FoldKernel::pair`] numbers them).
+    /// Frequency, 0 to `cols`, by pair of rows (as numbered by [`FoldKernel::pair`]).
     values: DMatrix<f64>,
 }
 
@@ -43,19 +43,19 @@ impl Spectra {
 
     fn spectrum(&self, padded: &mut [f64]) -> Vec<Complex64> {
         let mut spectrum = self.forward.make_output_vec();
-        // The lengths are those of the plan, so that this cannot fail.
+        // the lengths are those of the plan, so this cannot fail
         let _ = self.forward.process(padded, &mut spectrum);
         spectrum
     }
 
-    /// Transforms every row of facets, a column of `x`.
+    /// Transforms every row of facets, one column of `x` each.
     #[must_use]
     pub fn transform(&self, x: &DMatrix<f64>) -> Vec<Vec<Complex64>> {
         let padded = |row: &[f64]| [row, &vec![0.0; self.cols]].concat();
         x.as_slice().par_chunks_exact(self.cols).map(|row| self.spectrum(&mut padded(row))).collect()
     }
 
-    /// Adds to `out` the light that transformed exitance of the other panel sends to row `i` of `panel`.
+    /// Adds to `out` the light on row `i` of `panel` from the transformed exitance of the other panel.
     pub fn add_up(
         &self,
         kernel: &FoldKernel,
@@ -72,7 +72,7 @@ impl Spectra {
                 *sum += x * factor;
             }
         }
-        // Rounding leaves imaginary parts at both ends, which the plan would refuse.
+        // rounding leaves imaginary parts at both ends, which the plan would reject
         sum[0].im = 0.0;
         sum[self.cols].im = 0.0;
         let mut light = self.inverse.make_output_vec();

@@ -1,4 +1,4 @@
-//! Many samples: how their scores are spread, and which are worst.
+//! The distribution of the scores of many samples, and the worst of them.
 
 use std::path::Path;
 

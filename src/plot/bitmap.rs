@@ -1,4 +1,4 @@
-//! Pictures within drawings: facets and gradients, which as shapes of their own would make large files.
+//! Bitmaps in drawings: facets and gradients, which would make large files as shapes.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -7,10 +7,10 @@ use plotters::prelude::RGBColor;
 use crate::error::Result;
 use crate::image::png_bytes;
 
-/// Pixels of an embedded picture for one of the drawing: facets keep sharp sides where a screen has more.
+/// Pixels of an embedded bitmap per pixel of the drawing: facets keep sharp sides on finer screens.
 const FINENESS: u32 = 2;
 
-/// A colour at every place of a rectangle: functions of x and y from 0 to 1, y downwards.
+/// A colour at every point of a rectangle, as a function of x and y from 0 to 1, y downwards.
 pub(super) struct Bitmap<'a> {
     pub corner: (i32, i32),
     pub size: (u32, u32),
@@ -18,7 +18,7 @@ pub(super) struct Bitmap<'a> {
 }
 
 impl Bitmap<'_> {
-    /// The same further to the right and down.
+    /// The same, moved to the right and down.
     pub fn moved(self, (x, y): (i32, i32)) -> Self {
         Self { corner: (self.corner.0 + x, self.corner.1 + y), ..self }
     }
@@ -34,7 +34,7 @@ impl Bitmap<'_> {
         ))
     }
 
-    /// Paints it into a picture of `width` pixels, wholly within it.
+    /// Paints it into a picture of `width` pixels, entirely inside it.
     pub fn paint(&self, picture: &mut [u8], width: u32) {
         let pixels = self.pixels(self.size.0, self.size.1);
         for (row, line) in pixels.chunks_exact(3 * self.size.0 as usize).enumerate() {
@@ -50,7 +50,7 @@ impl Bitmap<'_> {
     }
 }
 
-/// Bytes as an address that holds them: RFC 2397.
+/// Bytes as a data URI: RFC 2397.
 ///
 /// # Example
 /// ```

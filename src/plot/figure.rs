@@ -1,5 +1,5 @@
-//! What all drawings share: SVG or PNG as the file's name ends, a font that is always there, colours that all
-//! readers tell apart.
+//! Common parts of all drawings: SVG or PNG by the file's extension, an embedded font, colours that all
+//! readers can distinguish.
 
 use std::path::Path;
 use std::sync::Once;
@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::files::Saved;
 use crate::image::png_bytes;
 
-/// Okabe and Ito's colours, which colour-blind readers can distinguish; black is kept for the truth.
+/// Okabe and Ito's colours, which colour-blind readers can distinguish; black is reserved for the truth.
 pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -23,10 +23,10 @@ pub const COLOURS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(153, 153, 153),
 ];
-/// Text is set in it, and measured in it where a browser sets it.
+/// Text is set in this font, and measured in it where a browser sets it.
 pub(super) const FONT: &str = "sans-serif";
 
-/// What a drawing step gives.
+/// The result of a drawing step.
 pub(super) type Drawn<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 /// A drawing for any backend.
@@ -34,16 +34,16 @@ pub(super) trait Figure {
     /// Width and height, pixels.
     fn size(&self) -> (u32, u32);
 
-    /// Draws it on an area of that size, white at first.
+    /// Draws it on an area of this size, initially white.
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B>;
 
-    /// Pictures over it.
+    /// Bitmaps drawn over it.
     fn bitmaps(&self) -> Vec<Bitmap<'_>> {
         Vec::new()
     }
 }
 
-/// One figure above another, or above none.
+/// One figure above an optional other.
 pub(super) struct Above<A, B>(pub A, pub Option<B>);
 
 impl<A: Figure, B: Figure> Figure for Above<A, B> {
@@ -66,7 +66,7 @@ impl<A: Figure, B: Figure> Figure for Above<A, B> {
     }
 }
 
-/// Writes a figure as PNG if the name ends so, else as SVG.
+/// Writes a figure as PNG if the extension says so, else as SVG.
 ///
 /// # Errors
 /// [`Error::File`] if the file cannot be written.
@@ -99,11 +99,11 @@ fn png(path: &Path, figure: &impl Figure) -> Result<()> {
     Saved::write(path, &png_bytes(width, height, pixels)?)
 }
 
-/// Makes the font of all drawings, "sans-serif", known to plotters, which measures text in it; again does no
-/// harm.
+/// Registers the font of all drawings, "sans-serif", with plotters, which measures text in it; repeated calls
+/// are harmless.
 pub fn load_font() {
     static FONT_LOADED: Once = Once::new();
-    // fails only for a file that is no font
+    // fails only for a file that is not a font
     FONT_LOADED.call_once(|| drop(register_font(FONT, FontStyle::Normal, dejavu::sans::regular())));
 }
 

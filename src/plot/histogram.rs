@@ -1,4 +1,4 @@
-//! How often values of a score occur.
+//! Histograms of scores.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -6,12 +6,12 @@ use plotters::prelude::*;
 use super::figure::{COLOURS, Drawn, FONT};
 use super::text::{SMALL, number};
 
-/// About how many bins there are.
+/// Approximate number of bins.
 const BINS: f64 = 16.0;
-/// Least value, in widths of the range, from which on the axis does not begin at zero.
+/// Least value, in widths of the range, at which the axis does not begin at zero.
 const FAR_FROM_ZERO: f64 = 2.0;
 
-/// Counts of values in bins of one width.
+/// Counts of values in bins of equal width.
 #[derive(Debug, PartialEq)]
 pub(super) struct Histogram {
     start: f64,
@@ -20,7 +20,7 @@ pub(super) struct Histogram {
 }
 
 impl Histogram {
-    /// Of finite values, one at least, in bins of 1, 2 or 5 times a power of ten.
+    /// Of one or more finite values, in bins of 1, 2 or 5 times a power of ten.
     pub fn of(values: &[f64]) -> Self {
         let (low, high) =
             values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));

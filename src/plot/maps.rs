@@ -1,4 +1,4 @@
-//! One number per facet, panel beside panel as the unfolded sheet has them.
+//! One number per facet, with panels side by side as on the unfolded sheet.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -10,36 +10,36 @@ use super::scale::{Scale, UNKNOWN};
 use super::text::{GREY, SIZE, SMALL, elided, number, say, style};
 use crate::geometry::Panel;
 
-/// Space for maps, px, how many stand beside each other in it, and how high they are.
+/// Space for maps, px, how many fit into a row, and their largest height.
 const WIDTH: u32 = 700;
 const PER_ROW: usize = 3;
 const HIGHEST: u32 = 260;
 const GAP: u32 = 20;
 const MARGIN: i32 = 30;
 const TITLE: i32 = 30;
-/// Height of the words above a map and below it.
+/// Height of the text above and below a map.
 const WORDS: i32 = 18;
-/// Width and height of the bar that tells what colours mean.
+/// Width and height of the colour bar.
 const BAR: (u32, u32) = (300, 14);
 const FOOT: i32 = 64;
-/// Between panels, px.
+/// Gap between panels, px.
 const CREASE: u32 = 2;
 /// Least width of a panel that is labelled with its number.
 const NUMBERED: u32 = 14;
-/// How much longer than deep a panel is drawn, at most, and the other way round.
+/// Largest ratio of the sides of a panel as drawn.
 const ASPECT: f64 = 3.0;
 
 /// Numbers of facets under one heading.
 #[derive(Clone, Debug)]
 pub struct FacetMap {
-    /// What they are.
+    /// What they mean.
     pub title: String,
-    /// One per facet of the scene, none where nothing is known.
+    /// One per facet of the scene, none where unknown.
     pub values: Vec<Option<f64>>,
 }
 
-/// Panels side by side, those of even number with their crease to the right, the others with it to the left,
-/// so that creases that are one lie beside each other.
+/// Panels side by side, those with even numbers with the crease on the right, the others on the left, so that
+/// two halves of a crease are adjacent.
 pub(super) struct Surface<'a> {
     panels: &'a [(usize, Panel)],
 }
@@ -49,7 +49,7 @@ impl<'a> Surface<'a> {
         Self { panels }
     }
 
-    /// Depth and width of the panels, in their unit, no panel much longer than deep or the other way round.
+    /// Depths and width of the panels, in their unit, with limited ratios.
     fn extents(&self) -> (Vec<f64>, f64) {
         let depth = |panel: &Panel| (panel.corners[3] - panel.corners[0]).norm();
         let width = |panel: &Panel| (panel.corners[1] - panel.corners[0]).norm();
@@ -58,7 +58,7 @@ impl<'a> Surface<'a> {
         (self.panels.iter().map(|(_, panel)| within(depth(panel))).collect(), width)
     }
 
-    /// The size within `most` in which panels keep their proportions.
+    /// The largest size within `most` that preserves the panels' proportions.
     fn size(&self, most: (u32, u32)) -> (u32, u32) {
         let (depths, width) = self.extents();
         let depth: f64 = depths.iter().sum();
@@ -66,7 +66,7 @@ impl<'a> Surface<'a> {
         ((scale * depth).round() as u32, ((scale * width).round() as u32).max(1))
     }
 
-    /// Left edge and width of each panel where all have a `width`.
+    /// Left edge and width of each panel if all together have this `width`.
     fn places(&self, width: u32) -> Vec<(i32, u32)> {
         let (depths, _) = self.extents();
         let total: f64 = depths.iter().sum();
@@ -80,7 +80,7 @@ impl<'a> Surface<'a> {
         depths.iter().map(place).collect()
     }
 
-    /// The panels within a rectangle, facets in the colours that their numbers have.
+    /// The panels in a rectangle, with facets in the colours of their numbers.
     pub fn bitmaps<'b>(
         &self,
         corner: (i32, i32),
@@ -113,18 +113,18 @@ fn facet_at(panel: &Panel, [u, v]: [f64; 2]) -> usize {
     panel.facets.start + within(&panel.row_edges, v) * cols + within(&panel.col_edges, u)
 }
 
-/// Maps of one scale, under a title and over the bar that tells what colours mean.
+/// Maps on one scale, under a title and above the colour bar.
 pub(super) struct Maps<'a> {
     pub title: String,
     pub panels: &'a [(usize, Panel)],
     pub maps: Vec<FacetMap>,
     pub scale: Scale,
-    /// What the bar says.
+    /// Label of the bar.
     pub unit: &'static str,
 }
 
 impl Maps<'_> {
-    /// Space for one map: few maps are larger.
+    /// Width for one map: larger if there are few maps.
     fn space(&self) -> u32 {
         let across = self.maps.len().clamp(1, PER_ROW) as u32;
         (WIDTH - (across - 1) * GAP) / across
@@ -169,11 +169,11 @@ impl Maps<'_> {
         Ok(())
     }
 
-    /// What colours mean.
+    /// The colour bar with its labels.
     fn key<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
         let (top, Scale { low, high, .. }) = (self.foot(), self.scale);
         let small = style(SMALL, HPos::Center, BLACK);
-        // one value has one tick, in the middle
+        // a single value has one tick, in the middle
         for tick in if self.scale.is_one() { 2..=2 } else { 0..=4 } {
             let (share, x) = (f64::from(tick) / 4.0, MARGIN + tick * BAR.0 as i32 / 4);
             area.draw(&PathElement::new(

@@ -1,8 +1,8 @@
-//! Drawings for people: each a `figure` in a file of its own, SVG or PNG.
+//! Drawings for people: each is a `figure` in its own file, SVG or PNG.
 //!
-//! [`sheets`] draws what is known of one sheet or of a few, and of many ([`multiples`]) a small chart each,
-//! [`batch`] how far off they are, [`surface`] what a kernel makes of its facets. They are made of
-//! [`spectra`], swatches and maps, in one font and in colours that all readers tell apart.
+//! [`sheets`] draws one or a few sheets, and many ([`multiples`]) in a small chart each, [`batch`] draws
+//! scores, [`surface`] the effect of a kernel on its facets. They consist of [`spectra`], swatches and maps,
+//! in one font and in colours that all readers can distinguish.
 
 pub mod batch;
 mod bitmap;

@@ -1,4 +1,4 @@
-//! Many estimated spectra: a small chart for each, all on one scale.
+//! Many estimated spectra: a small chart for each, on a common scale.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -14,10 +14,10 @@ pub const MULTIPLES_MAX: usize = 60;
 const ACROSS: usize = 4;
 const CELL: (u32, u32) = (190, 140);
 const MARGIN: i32 = 12;
-/// Height of the words above all charts, and of the name above each.
+/// Height of the text above all charts, and of the name above each.
 const CAPTION: i32 = 30;
 const NAME: i32 = 22;
-/// Side of the sheet's colour beside its name.
+/// Side of the swatch next to a sheet's name.
 const SWATCH: i32 = 12;
 
 /// The first sheets of `all`, at most [`MULTIPLES_MAX`] and at least one.

@@ -1,9 +1,9 @@
-//! Colours of numbers that colour-blind readers can distinguish.
+//! Colour scales that colour-blind readers can distinguish.
 
 use plotters::prelude::RGBColor;
 
-/// Blue, white, brown, alike in darkness on both sides: from two diverging schemes of C. Brewer, *The
-/// Cartographic Journal* 40 (2003), p. 27.
+/// Blue, white, brown, equally dark on both sides: from two diverging schemes of C. Brewer, *The Cartographic
+/// Journal* 40 (2003), p. 27.
 const DIVERGING: [RGBColor; 5] = [
     RGBColor(5, 48, 97),
     RGBColor(67, 147, 195),
@@ -19,10 +19,10 @@ const SEQUENTIAL: [RGBColor; 5] = [
     RGBColor(188, 174, 108),
     RGBColor(254, 232, 56),
 ];
-/// Facets of which nothing is known: in neither scale.
+/// Facets without a number, in a colour of neither scale.
 pub(super) const UNKNOWN: RGBColor = RGBColor(150, 150, 150);
 
-/// Values that differ by less, relative to the largest, are one.
+/// Values that differ by less, relative to the largest, are equal.
 const ROUNDING: f64 = 1e-6;
 
 /// Numbers from `low` to `high` as colours.
@@ -34,25 +34,25 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// From below to above zero, alike on both sides and wide enough for all of `values`, `least` at least.
+    /// Symmetrical around zero and wide enough for all `values`, at least to `least`.
     pub fn around_zero(values: impl Iterator<Item = f64>, least: f64) -> Self {
         let limit = values.fold(least, |limit, value| limit.max(value.abs()));
         Self { colours: &DIVERGING, low: -limit, high: limit }
     }
 
-    /// From the least to the largest of `values`; of values that are one but for rounding, that one alone.
+    /// From the least to the largest of `values`; a single value if they are equal up to rounding.
     pub fn over(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
         let low = if high - low > ROUNDING * high.abs() { low } else { high };
         Self { colours: &SEQUENTIAL, low, high }
     }
 
-    /// Whether it has one value alone.
+    /// Whether it has a single value.
     pub fn is_one(&self) -> bool {
         self.high <= self.low
     }
 
-    /// The colour of a value, or of the end that it is nearer to.
+    /// The colour of a value, clamped to the ends.
     pub fn colour(&self, value: f64) -> RGBColor {
         let share = (value - self.low) / (self.high - self.low);
         let place = if self.is_one() { 0.5 } else { share.clamp(0.0, 1.0) };

@@ -1,29 +1,29 @@
-//! What can be drawn of a sheet: its spectrum, what it looks like, what the estimate leaves of its facets.
+//! What can be drawn of a sheet: its spectrum, its appearance, the residuals of its facets.
 
 use super::spectra::Curve;
 use crate::geometry::Panel;
 
-/// What can be drawn of a sample.
+/// The drawable data of a sample.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     /// Its spectrum.
     pub curve: Curve,
-    /// What it looks like.
+    /// Its appearance.
     pub colours: Option<SheetColours>,
-    /// What the estimate leaves of its facets.
+    /// The residuals of its facets.
     pub residuals: Option<Residuals>,
-    /// Where its facets are, by the panels' numbers.
+    /// Positions of its facets, by the panels' numbers.
     pub panels: Vec<(usize, Panel)>,
 }
 
 /// Colours on screen, sRGB from 0 to 1.
 #[derive(Clone, Debug)]
 pub struct SheetColours {
-    /// Of the flat sheet as estimated.
+    /// Of the flat sheet, as estimated.
     pub estimate: [f64; 3],
-    /// As it truly is.
+    /// Of the flat sheet, true.
     pub truth: Option<[f64; 3]>,
-    /// Of the facets, the brightest number being that of the flat sheet.
+    /// Of the facets, scaled so that the largest number is that of the flat sheet.
     pub folded: Vec<[f64; 3]>,
 }
 
@@ -37,7 +37,7 @@ pub struct Residuals {
 }
 
 impl Sheet {
-    /// Colours of the folded sheet, where its facets can be drawn.
+    /// Colours of the folded sheet, if its facets can be drawn.
     pub(super) fn folded(&self) -> Option<&[[f64; 3]]> {
         let folded = self.colours.as_ref()?.folded.as_slice();
         (!folded.is_empty() && !self.panels.is_empty()).then_some(folded)

@@ -1,5 +1,4 @@
-//! One sheet or a few: spectra, what they look like and, of one sheet, what the estimate leaves of its
-//! facets.
+//! One or a few sheets: spectra, appearance and, for a single sheet, the residuals of its facets.
 
 use std::path::Path;
 
@@ -13,8 +12,7 @@ use super::swatches::Swatches;
 use super::terminal;
 use crate::error::{Error, Result};
 
-/// Residuals beyond that many standard deviations are on every scale, so that noise looks alike in all
-/// drawings.
+/// Every scale reaches at least this many standard deviations, so that noise looks the same in all drawings.
 const USUAL: f64 = 4.0;
 
 impl Sheet {
@@ -53,9 +51,8 @@ impl Sheet {
 }
 
 /// Draws the first sheets of `all`, as SVG or PNG: a single one with its residuals, up to [`CURVES_MAX`] on
-/// one chart, up to
-/// [`MULTIPLES_MAX`] on one each; `-` is the terminal, which shows the spectra of the first
-/// [`CURVES_MAX`] alone.
+/// one chart, up to [`MULTIPLES_MAX`] on one each; `-` is the terminal, which only shows the spectra of the
+/// first [`CURVES_MAX`].
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be written, [`Error::NothingToDraw`] if there is nothing to draw.

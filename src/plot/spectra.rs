@@ -8,7 +8,7 @@ use plotters::prelude::*;
 
 use super::figure::{COLOURS, Drawn, FONT, Figure};
 
-/// Most curves in one drawing: more could not be distinguished.
+/// Most curves in one drawing: more would be indistinguishable.
 pub const CURVES_MAX: usize = COLOURS.len();
 const SIZE: (u32, u32) = (760, 430);
 
@@ -19,33 +19,33 @@ pub struct Curve {
     pub name: String,
     /// Wavelengths, nm.
     pub wavelengths_nm: Vec<f64>,
-    /// Reflectance a wavelength.
+    /// Reflectance per wavelength.
     pub reflectance: Vec<f64>,
-    /// Standard deviation of each, drawn as a band of two to either side.
+    /// Standard deviation of each, drawn as a band of two on either side.
     pub reflectance_sd: Option<Vec<f64>>,
-    /// Total radiance factor per wavelength of a sheet that fluoresces, drawn thin: what it sends out is
-    /// between the two.
+    /// Total radiance factor per wavelength of a fluorescent sheet, drawn thin: the emission is the
+    /// difference.
     pub total: Option<Vec<f64>>,
     /// True wavelengths and reflectances, drawn dashed.
     pub truth: Option<(Vec<f64>, Vec<f64>)>,
-    /// The light, where it was found along with the spectrum.
+    /// The light, if it was inferred with the spectrum.
     pub light: Option<LightCurve>,
 }
 
-/// A light that was found.
+/// An inferred light.
 #[derive(Clone, Debug)]
 pub struct LightCurve {
-    /// What it is called, and how probable that is.
+    /// Its name and probability.
     pub name: String,
     /// Relative power, one number per wavelength of the spectrum.
     pub power: Vec<f64>,
 }
 
-/// The light is drawn as high as that share of the chart, and called by its name there.
+/// The light is drawn up to this fraction of the chart's height, with its name.
 const LIGHT_HEIGHT: f64 = 0.9;
 const LIGHT: RGBColor = RGBColor(150, 150, 150);
 
-/// Curves over wavelength, at least one, in the order of [`COLOURS`]; swatches beneath name them.
+/// Curves over wavelength, at least one, in the order of [`COLOURS`]; swatches below name them.
 pub(super) struct Spectra<'a>(pub Vec<&'a Curve>);
 
 impl Figure for Spectra<'_> {
@@ -71,7 +71,7 @@ impl Figure for Spectra<'_> {
             .axis_desc_style((FONT, 15))
             .draw()?;
         for (curve, colour) in curves().zip(COLOURS.into_iter().cycle()) {
-            // of several sheets each truth is of its sheet's colour
+            // with several sheets, each truth has its sheet's colour
             let truth = if self.0.len() == 1 { BLACK.stroke_width(2) } else { colour.stroke_width(1) };
             draw_curve(&mut chart, curve, colour, truth)?;
         }
@@ -85,7 +85,7 @@ impl Figure for Spectra<'_> {
 /// Reflectance over wavelength.
 type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// One spectrum with its band, and the true one dashed.
+/// One spectrum with its band, and the dashed true one.
 pub(super) fn draw_curve<B: DrawingBackend>(
     chart: &mut Chart<B>,
     curve: &Curve,
@@ -108,7 +108,7 @@ pub(super) fn draw_curve<B: DrawingBackend>(
     Ok(())
 }
 
-/// The light beneath a single spectrum, in no unit.
+/// The light below a single spectrum, in arbitrary units.
 fn draw_light<B: DrawingBackend>(
     chart: &mut Chart<B>,
     wavelengths_nm: &[f64],
@@ -133,13 +133,13 @@ pub(super) fn ends<'a>(curves: impl Iterator<Item = &'a Curve>) -> Range<f64> {
     low..high
 }
 
-/// Where the axis of reflectance ends that holds all curves: at 1, but for what fluoresces.
+/// Upper end of the reflectance axis: 1, or more for a fluorescent sheet.
 pub(super) fn top<'a>(curves: impl Iterator<Item = &'a Curve>) -> f64 {
     let highest = curves.map(highest).fold(0.0, f64::max);
     (1.08 * highest).min(highest.max(1.0))
 }
 
-/// Outline of two standard deviations to either side of a curve.
+/// Outline of two standard deviations on either side of a curve.
 fn band(curve: &Curve) -> Option<Vec<(f64, f64)>> {
     let outline = |edge: Vec<f64>| points(&curve.wavelengths_nm, edge.into_iter()).collect::<Vec<_>>();
     let [low, high] = curve.edges()?.map(outline);
@@ -147,7 +147,7 @@ fn band(curve: &Curve) -> Option<Vec<(f64, f64)>> {
 }
 
 impl Curve {
-    /// Lower and upper edge of its band: two standard deviations to either side.
+    /// Lower and upper edge of its band: two standard deviations on either side.
     pub(super) fn edges(&self) -> Option<[Vec<f64>; 2]> {
         let sd = self.reflectance_sd.as_ref()?;
         let edge = |side: f64| {
@@ -157,7 +157,7 @@ impl Curve {
     }
 }
 
-/// The highest point that a curve, its band or its truth reaches.
+/// The highest point of a curve, its band and its truth.
 pub(super) fn highest(curve: &Curve) -> f64 {
     let own = curve.edges().map_or_else(|| curve.reflectance.clone(), |[_, high]| high);
     let truth = curve.truth.iter().flat_map(|(_, reflectance)| reflectance.iter().copied());

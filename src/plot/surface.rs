@@ -1,4 +1,4 @@
-//! What a kernel and direct light make of every facet.
+//! Direct light and row sums of the kernel for every facet.
 
 use std::path::Path;
 
@@ -8,14 +8,14 @@ use super::scale::Scale;
 use crate::error::Result;
 use crate::geometry::Panel;
 
-/// Numbers of the facets of a scene.
+/// Light of the facets of a scene.
 #[derive(Clone, Debug)]
 pub struct FacetLight {
-    /// Where the facets are, by the panels' numbers.
+    /// Positions of the facets, by the panels' numbers.
     pub panels: Vec<(usize, Panel)>,
-    /// Share of its light that each facet hands to others: row sums of the kernel, 0..1.
+    /// Fraction of its light that each facet sends to others: row sums of the kernel, 0..1.
     pub row_sums: Vec<f64>,
-    /// Direct irradiance, that of a plane facing the sun being 1.
+    /// Direct irradiance, relative to a plane facing the sun.
     pub irradiance: Vec<f64>,
 }
 

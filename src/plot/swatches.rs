@@ -1,4 +1,4 @@
-//! What sheets look like: one row per sheet, with its name and its colours, flat and folded.
+//! The appearance of sheets: one row per sheet, with its name and its colours, flat and folded.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -15,12 +15,12 @@ const HEADING: i32 = 24;
 const ROW: i32 = 36;
 /// Height of a swatch.
 const TALL: i32 = 28;
-/// Where names, swatches and folds begin, and how wide they are.
+/// Start and width of names, swatches and folds.
 const NAME: (i32, u32) = (62, 330);
 const SWATCH: (i32, i32) = (410, 60);
 const FOLD: (i32, u32) = (550, 180);
 
-/// The names of curves, and what their sheets look like.
+/// The names of curves, with the colours of their sheets.
 pub(super) struct Swatches<'a>(pub &'a [Sheet]);
 
 impl Swatches<'_> {
@@ -64,8 +64,8 @@ impl Swatches<'_> {
             area.draw(&Rectangle::new(patch, screen(*srgb).filled()))?;
             right = left + SWATCH.1;
         }
-        // a white sheet is seen on white paper, and true and estimated colours meet without a line between
-        // them
+        // outlined, so that a white sheet is visible on white paper; true and estimated colours meet without
+        // a line
         area.draw(&Rectangle::new([(SWATCH.0, top), (right, top + TALL)], GREY.stroke_width(1)))
     }
 }
@@ -91,7 +91,7 @@ impl Figure for Swatches<'_> {
     }
 }
 
-/// sRGB, each 0..1, as the screen has it.
+/// sRGB, each 0..1, as a screen colour.
 fn screen(srgb: [f64; 3]) -> RGBColor {
     let [r, g, b] = srgb.map(|value| (255.0 * value).round() as u8);
     RGBColor(r, g, b)

@@ -1,4 +1,4 @@
-//! Estimated spectra for the terminal: braille dots, or plain ASCII where the locale has no more.
+//! Estimated spectra for the terminal: braille dots, or plain ASCII where the locale has only that.
 
 mod canvas;
 
@@ -11,21 +11,21 @@ use super::spectra::Curve;
 use crate::message::printable;
 use canvas::{Canvas, Cell, ROWS};
 
-/// Lines between labels of the reflectance.
+/// Rows per label of the reflectance.
 const LABEL_ROWS: usize = 3;
-/// Columns that labels of the reflectance take.
+/// Columns of the reflectance labels.
 const MARGIN: usize = 7;
-/// Least and most columns of a plot, and those of what is no terminal.
+/// Least and most columns of a plot, and those of anything but a terminal.
 const COLUMNS: [usize; 2] = [40, 160];
 const COLUMNS_OF_NO_TERMINAL: usize = 80;
-/// Columns that a wavelength and the space around it take.
+/// Columns for a wavelength label and the space around it.
 const LABEL_COLUMNS: f64 = 8.0;
-/// Steps of wavelength, nm, that labels have.
+/// Possible steps of the wavelength labels, nm.
 const LABEL_STEPS_NM: [f64; 6] = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 
 /// Draws the first curves of `all` on standard error, one below the other, as wide as the terminal.
 ///
-/// A closed standard error is no reason to stop.
+/// A closed standard error is ignored.
 pub fn draw<'a>(curves: impl ExactSizeIterator<Item = &'a Curve>, all: usize) {
     let terminal = Term::stderr();
     let columns = terminal.size_checked().map_or(COLUMNS_OF_NO_TERMINAL, |(_, columns)| columns.into());
@@ -40,7 +40,7 @@ pub fn draw<'a>(curves: impl ExactSizeIterator<Item = &'a Curve>, all: usize) {
     }
 }
 
-/// Whether the locale is one of UTF-8: of its variables the first that is set counts.
+/// Whether the locale is UTF-8: the first of its variables that is set counts.
 fn is_utf8() -> bool {
     let set = ["LC_ALL", "LC_CTYPE", "LANG"]
         .iter()
@@ -48,7 +48,7 @@ fn is_utf8() -> bool {
     set.is_some_and(|locale| locale.to_ascii_lowercase().replace('-', "").ends_with("utf8"))
 }
 
-/// What a plot is made of.
+/// The glyphs and colours of a plot.
 struct Look {
     glyphs: &'static Glyphs,
     colours: bool,
@@ -58,13 +58,13 @@ struct Look {
 struct Glyphs {
     /// Dots of a character, across and down.
     dots: [usize; 2],
-    /// The character that has these dots.
+    /// The character with these dots.
     curve: fn(u8) -> char,
     band: char,
     truth: char,
-    /// Upright, level, where they meet, and where there is a label on each.
+    /// Vertical, horizontal, corner, and label ticks on each.
     axes: [char; 5],
-    /// How the curve looks in the legend.
+    /// The curve as shown in the legend.
     sample: &'static str,
 }
 
@@ -84,7 +84,7 @@ static ASCII: Glyphs = Glyphs {
     axes: ['|', '-', '+', '+', '+'],
     sample: "**",
 };
-/// The whole plot of a curve: its name and a legend, rows of characters, wavelengths.
+/// The complete plot of a curve: its name and a legend, rows of characters, wavelengths.
 fn text(curve: &Curve, columns: usize, look: &Look) -> String {
     let width = columns.clamp(COLUMNS[0], COLUMNS[1]) - MARGIN - 1;
     let canvas = Canvas::of(curve, width, look.glyphs.dots);
@@ -119,7 +119,7 @@ impl Look {
         format!("{level:>5.2} {}", self.glyphs.axes[3])
     }
 
-    /// The axis, and the numbers below it.
+    /// The axis, and its labels.
     fn wavelength_axis(&self, ends_nm: [f64; 2], width: usize) -> String {
         let [_, level, corner, _, tick] = self.glyphs.axes;
         let [first, last] = ends_nm;
@@ -156,7 +156,7 @@ impl Look {
     }
 }
 
-/// Round wavelengths, as many as have space on so many columns.
+/// Round wavelengths, as many as fit into this many columns.
 fn labels_nm([first, last]: [f64; 2], width: usize) -> impl Iterator<Item = f64> {
     let most = width as f64 / LABEL_COLUMNS;
     let step_nm =

@@ -1,4 +1,4 @@
-//! Words in drawings: one font, measured before they are set.
+//! Text in drawings: one font, measured before it is set.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -7,20 +7,20 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::figure::{Drawn, FONT};
 use crate::markup::printable;
 
-/// Size of words, px.
+/// Text size, px.
 pub(super) const SIZE: i32 = 14;
-/// Size of what is said beside.
+/// Size of secondary text.
 pub(super) const SMALL: i32 = 12;
 /// Grey that is legible on white.
 pub(super) const GREY: RGBColor = RGBColor(85, 85, 85);
 
-/// Words of a size, set from a point to the right, to both sides or to the left.
+/// Text of a size, extending from a point to the right, to both sides or to the left.
 pub(super) fn style(size: i32, place: HPos, colour: RGBColor) -> TextStyle<'static> {
     TextStyle { color: colour.to_backend_color(), ..TextStyle::from((FONT, size).into_font()) }
         .pos(Pos::new(place, VPos::Center))
 }
 
-/// Sets words on a line.
+/// Draws a line of text.
 pub(super) fn say<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     text: &str,
@@ -30,7 +30,7 @@ pub(super) fn say<B: DrawingBackend>(
     area.draw_text(&printable(text), style, at)
 }
 
-/// The text, its middle left out where it is wider than `width` px.
+/// The text, with its middle omitted if it is wider than `width` px.
 pub(super) fn elided<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     text: &str,
@@ -47,12 +47,12 @@ pub(super) fn elided<B: DrawingBackend>(
     if fits(&text) {
         return text;
     }
-    // more letters than that never fit, and measuring takes time
+    // more letters never fit, and measuring takes time
     let most = letters.len().min(width as usize);
     (0..most).rev().map(short).find(|short| fits(short)).unwrap_or_else(|| short(0))
 }
 
-/// A number with three digits that count.
+/// A number with three significant digits.
 pub(super) fn number(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {

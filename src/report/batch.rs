@@ -1,4 +1,4 @@
-//! The section of all samples: how many, how good, which are worst, what failed.
+//! The section on all samples: their number, scores, the worst ones, failures.
 
 use super::html::Html;
 use super::words::digits;
@@ -6,7 +6,7 @@ use super::{Gallery, SECTIONS_MAX};
 use crate::error::Result;
 use crate::score::{Statistics, Summary};
 
-/// What is said of all samples together; nothing of a single one that has a section of its own.
+/// The section on all samples; none for a single sample with its own section.
 pub(super) fn section(gallery: &Gallery, summary: &Summary) -> Result<Option<Html>> {
     if summary.samples() == 1 && gallery.seen() == 1 {
         return Ok(None);

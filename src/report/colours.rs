@@ -1,4 +1,4 @@
-//! Colours of an estimate, in numbers and to look at.
+//! The colours of an estimate, as numbers and swatches.
 
 use super::View;
 use super::html::Html;
@@ -12,8 +12,8 @@ const XYZ: [&str; 3] = ["X", "Y", "Z"];
 const LAB: [&str; 3] = ["L*", "a*", "b*"];
 const SRGB: [&str; 3] = ["R", "G", "B"];
 
-/// What the sheet looks like under the illuminant of the page; none where its colours cannot be computed, as
-/// over a few wavelengths.
+/// Appearance of the sheet under the page's illuminant; none if its colours cannot be computed, as with a few
+/// wavelengths.
 pub(super) fn section(estimate: &EstimateRecord, scene: &Scene, view: &View) -> Result<Option<Html>> {
     let grid = scene.grid()?;
     let meter = Colorimeter::new(&grid, view.illuminant, view.observer).ok();

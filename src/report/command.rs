@@ -1,10 +1,11 @@
-//! The commands that made a scene and its samples, as a shell takes them.
+//! The commands that made a scene and its samples, in shell syntax.
 
 use crate::stream::HistoryRecord;
 
-/// One pipe of the tools, a line each.
+/// One pipeline of the tools, one per line.
 ///
-/// A tool that read a file reads it again, or, from standard input, what the one before it writes.
+/// A tool that read a file reads it again; one that read standard input reads the output of the previous
+/// tool.
 pub(super) fn pipeline(history: &[HistoryRecord]) -> String {
     let call = |line: &HistoryRecord| {
         let words = std::iter::once(line.tool.clone()).chain(line.arguments.iter().map(|word| quoted(word)));
@@ -13,7 +14,7 @@ pub(super) fn pipeline(history: &[HistoryRecord]) -> String {
     history.iter().map(call).collect::<Vec<_>>().join(" |\n  ")
 }
 
-/// A word as a POSIX shell reads it.
+/// A word quoted for a POSIX shell.
 fn quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./,:=@%+".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {

@@ -1,4 +1,4 @@
-//! What is shown of a stream of any length: the worst samples, and what went wrong.
+//! The selection shown of a stream of any length: the worst samples, and failures.
 
 use std::sync::Arc;
 
@@ -12,10 +12,10 @@ use crate::stream::{EstimateRecord, Sample, Scene, Scenes};
 
 /// Most failures that are listed.
 const FAILURES_MAX: usize = 24;
-/// Most samples that are called the worst.
+/// Most samples that are listed as the worst.
 const WORST_MAX: usize = 10;
 
-/// A sample under its scene.
+/// A sample with its scene.
 #[derive(Clone, Debug)]
 pub struct Shown {
     /// The scene.
@@ -24,7 +24,8 @@ pub struct Shown {
     pub sample: Sample,
 }
 
-/// Samples to show: all of a few, the worst by the first score of many. Memory holds as many as are shown.
+/// Samples to show: all if they are few, otherwise the worst by the first score. Only those shown are kept in
+/// memory.
 pub struct Gallery {
     samples: Worst<Shown>,
     scenes: Scenes<Arc<Scene>>,
@@ -33,21 +34,21 @@ pub struct Gallery {
 }
 
 impl Gallery {
-    /// An empty one for up to `most` samples.
+    /// An empty gallery for up to `most` samples.
     #[must_use]
     pub fn new(most: usize) -> Self {
         Self { samples: Worst::new(most), scenes: Scenes::default(), failures: Vec::new(), failed: 0 }
     }
 
-    /// Takes a scene of samples that follow.
+    /// Adds the scene of the samples that follow.
     pub fn enter(&mut self, scene: &Scene) {
         self.scenes.enter(scene, Arc::new(scene.clone()));
     }
 
-    /// Takes a sample.
+    /// Adds a sample.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if its scores are not scores.
+    /// [`crate::Error::Field`] if its scores are invalid.
     pub fn add(&mut self, sample: &Sample) -> Result<()> {
         let scene = self.scenes.of(sample);
         if let Some(error) = sample.error()? {
@@ -63,23 +64,23 @@ impl Gallery {
         Ok(())
     }
 
-    /// Samples without errors.
+    /// Number of samples without errors.
     #[must_use]
     pub fn seen(&self) -> usize {
         self.samples.seen()
     }
 
-    /// Those that are shown, in the order in which they came.
+    /// The samples shown, in their original order.
     pub fn in_order(&self) -> impl Iterator<Item = &Shown> {
         self.samples.in_order()
     }
 
-    /// Names and errors of the first failures, and how many there were.
+    /// Names and errors of the first failures, and the number of all.
     pub(super) fn failures(&self) -> (&[(String, String)], usize) {
         (&self.failures, self.failed)
     }
 
-    /// What can be drawn of those that are shown.
+    /// The drawings of the samples shown.
     ///
     /// # Errors
     /// As [`crate::scene::sheet`].
@@ -91,10 +92,10 @@ impl Gallery {
         self.in_order().filter_map(|shown| sheet(shown).transpose()).collect()
     }
 
-    /// The scores of all, and the worst ten by the first score.
+    /// The scores of all samples, and the worst ten by the first score.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if scores are not scores.
+    /// [`crate::Error::Field`] if scores are invalid.
     pub fn batch(&self, summary: &Summary) -> Result<Batch> {
         let scores = summary.statistics().into_iter().zip(summary.values());
         let mut worst = Vec::new();
@@ -111,7 +112,7 @@ impl Gallery {
 }
 
 impl Shown {
-    /// What can be drawn of its estimate.
+    /// The drawing of its estimate.
     pub(super) fn sheet(&self, estimate: &EstimateRecord, view: &View) -> Result<Sheet> {
         sheet((&self.sample, estimate), &self.scene, view.illuminant, view.observer)
     }

@@ -1,4 +1,4 @@
-//! Elements of a page. Text becomes part of one by being escaped: names of samples may hold anything.
+//! Elements of a page. All text is escaped: names of samples may contain anything.
 
 use crate::markup::escaped;
 
@@ -12,29 +12,28 @@ impl Html {
         Self(format!("<{name}{}>{}</{name}>", written(attributes), content.into().0))
     }
 
-    /// An element that has no content.
+    /// An element without content.
     pub fn empty(name: &str, attributes: &[(&str, &str)]) -> Self {
         Self(format!("<{name}{}/>", written(attributes)))
     }
 
-    /// The look of the page.
+    /// The style sheet of the page.
     pub fn style(rules: &'static str) -> Self {
         Self(format!("<style>{rules}</style>"))
     }
 
-    /// A drawing as `plot` makes it, with a description for those who cannot see it, in the width that the
-    /// page has.
+    /// A drawing from `plot`, as wide as the page, with a description for those who cannot see it.
     pub fn drawing(svg: &str, words: &str) -> Self {
         let described = format!("<svg role=\"img\" aria-label=\"{}\" ", escaped(words));
         Self(svg.replacen("<svg ", &described, 1))
     }
 
-    /// Lines of text, in an element that keeps them.
+    /// Lines of text, for an element that preserves them.
     pub fn lines(text: &str) -> Self {
         Self(text.lines().map(escaped).collect::<Vec<_>>().join("\n"))
     }
 
-    /// Columns under their headings; the first tells what a row is of.
+    /// Columns under their headings; the first names the rows.
     pub fn table(caption: &str, headings: &[&str], rows: impl IntoIterator<Item = Vec<Self>>) -> Self {
         let heading = |text: &&str| Self::element("th", &[("scope", "col")], *text);
         let head = Self::element("tr", &[], headings.iter().map(heading).collect::<Vec<_>>());
@@ -54,7 +53,7 @@ impl Html {
         Self::element("div", &[("class", "table")], Self::element("table", &[], parts))
     }
 
-    /// What is drawn, over what it shows.
+    /// A drawing above its caption.
     pub fn figure(drawing: Self, caption: &str) -> Self {
         Self::element("figure", &[], vec![drawing, Self::element("figcaption", &[], caption)])
     }

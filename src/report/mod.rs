@@ -1,8 +1,8 @@
-//! A report for people: one HTML file with all that a scored stream says, in drawings and words.
+//! A report for people: one HTML file with the contents of a scored stream, as drawings and text.
 //!
-//! [`Gallery`] keeps what is to be shown of a stream of any length, [`write()`] makes the page of it: `html`
-//! holds the elements, `page` their look, `batch`, `sample` and `scene` the sections, `colours`, `photograph`
-//! and `command` parts of these. The file needs no other, no script and no network.
+//! [`Gallery`] selects what to show of a stream of any length, [`write()`] makes its page: `html` has the
+//! elements, `page` their style, `batch`, `sample` and `scene` the sections, `colours`, `photograph` and
+//! `command` parts of these. The file needs no other file, script or network.
 
 mod batch;
 mod colours;
@@ -27,11 +27,11 @@ use crate::error::Result;
 use crate::files::Saved;
 use crate::score::Summary;
 
-/// Writes the page of a gallery, and of the scores of all samples.
+/// Writes the page of a gallery, with the scores of all samples.
 ///
 /// # Errors
 /// [`crate::Error::File`] if it cannot be written, or an overlay cannot be read; [`crate::Error::Usage`] for
-/// an overlay of no sample; [`crate::Error::Field`] if a record is not what the tools write.
+/// an overlay without a sample; [`crate::Error::Field`] if a record is invalid.
 pub fn write(path: &Path, gallery: &Gallery, summary: &Summary, view: &View) -> Result<()> {
     overlay::check(gallery, view)?;
     let mut sections = Vec::new();

@@ -1,7 +1,7 @@
-//! The picture of what was measured, as `vextract --overlay` drew it.
+//! The picture of the measured facets drawn by `vextract --overlay`.
 //!
-//! Which pictures are read is up to the command line alone: a stream may be anybody's, and says no more than
-//! which of them is whose.
+//! Only the command line determines which pictures are read: a stream may come from anyone, and can only
+//! assign them to its samples.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -12,13 +12,13 @@ use crate::files::{is_pattern, named};
 use crate::image::thumbnail;
 use crate::plot::data_uri;
 
-/// Longest side in a report, px: facets can be distinguished.
+/// Longest side in a report, px: large enough to distinguish facets.
 const LONGEST_PX: u32 = 1100;
 
-/// Refuses a picture that is none of a sample's.
+/// Refuses a picture that belongs to no sample.
 ///
 /// # Errors
-/// [`Error::Usage`] if a picture has no sample's name, while it can only be told by that whose it is.
+/// [`Error::Usage`] if a picture has no sample's name, although only its name could assign it.
 pub(super) fn check(gallery: &Gallery, view: &View) -> Result<()> {
     let (failures, failed) = gallery.failures();
     let are_all_known = gallery.seen() <= SECTIONS_MAX && failed <= failures.len();
@@ -36,15 +36,15 @@ pub(super) fn check(gallery: &Gallery, view: &View) -> Result<()> {
     }
 }
 
-/// Whether there is one picture, and one sample that it can be of.
+/// Whether there is one picture, and one sample that it can belong to.
 fn is_the_only(gallery: &Gallery, view: &View) -> bool {
     gallery.seen() == 1 && view.overlays.len() == 1
 }
 
-/// The picture of the sample of this name; none if none was named.
+/// The picture of the sample of this name; none if none was stated.
 ///
 /// # Errors
-/// [`Error::Field`] if its name would lead elsewhere; as [`thumbnail`].
+/// [`Error::Field`] if its name would lead to another folder; as [`thumbnail`].
 pub(super) fn figure(id: &str, gallery: &Gallery, view: &View) -> Result<Option<Html>> {
     let exact = |path: &&PathBuf| !is_pattern(path) && (is_the_only(gallery, view) || is_of(path, id));
     let found =
@@ -62,7 +62,7 @@ fn is_of(path: &Path, id: &str) -> bool {
     path.file_stem().is_some_and(|stem| stem == id)
 }
 
-/// Whether a text is the name of a file, and no way to one.
+/// Whether a text is a file name, not a path.
 fn is_name(id: &str) -> bool {
     let mut parts = Path::new(id).components();
     matches!((parts.next(), parts.next()), (Some(Component::Normal(name)), None) if name == id)

@@ -1,19 +1,19 @@
-//! The page around the sections: what it looks like on screen and on paper.
+//! The page around the sections: its style on screen and on paper.
 
 use super::Gallery;
 use super::html::Html;
 use crate::error::Result;
 use crate::estimate::verdict::Level;
 
-/// System fonts, one column, light or dark as the reader's system is; on paper always light, and a sample
-/// begins on a page of its own. Drawings, which are black on white, are drawn in the colours of the page. On
-/// narrow screens their letters grow, or they scroll.
+/// System fonts, one column, light or dark as the reader's system; on paper always light, with each sample on
+/// a new page. Drawings, black on white, take on the colours of the page. On narrow screens their text grows,
+/// or they scroll.
 const STYLE: &str = include_str!("page.css");
 
-/// The whole page.
+/// The complete page.
 ///
 /// # Errors
-/// [`crate::Error::Field`] if a record is not what the tools write.
+/// [`crate::Error::Field`] if a record is invalid.
 pub(super) fn page(gallery: &Gallery, sections: Vec<Html>) -> Result<String> {
     let head = vec![
         Html::empty("meta", &[("charset", "utf-8")]),

@@ -1,4 +1,4 @@
-//! Which photograph was measured, and what of it nobody stated.
+//! The photograph that was measured, and what was not stated on it.
 
 use super::html::Html;
 use super::tables::pairs;
@@ -6,7 +6,7 @@ use super::words::{digits, rounded, utc, with_sd};
 use crate::error::Result;
 use crate::stream::{HistoryRecord, Sample, Scene};
 
-/// Name, date and checksum of the photograph, by which it is found again.
+/// Name, date and checksum of the photograph, which identify it.
 pub(super) fn file(sample: &Sample) -> Result<Option<Html>> {
     let text = |field: &str| sample.fields.text_at(&format!("image.{field}"));
     let Some(name) = text("file")? else { return Ok(None) };
@@ -18,7 +18,7 @@ pub(super) fn file(sample: &Sample) -> Result<Option<Html>> {
     add("file last written", written.map(utc));
     add("SHA-256", text("sha256")?);
     let camera = match (text("make")?, text("model")?) {
-        // most models begin with their maker
+        // most models begin with the maker's name
         (Some(make), Some(model)) if !model.starts_with(&make) => Some(format!("{make} {model}")),
         (make, model) => model.or(make),
     };
@@ -27,7 +27,7 @@ pub(super) fn file(sample: &Sample) -> Result<Option<Html>> {
     Ok(Some(pairs("The photograph", rows)))
 }
 
-/// What the tools found or assumed because nobody stated it, and how sure that is.
+/// What the tools found or assumed in place of missing statements, and with what certainty.
 pub(super) fn unstated(sample: &Sample, scene: &Scene) -> Result<Option<Html>> {
     let mut rows: Vec<[String; 3]> = Vec::new();
     for (field, what) in [
@@ -49,7 +49,7 @@ pub(super) fn unstated(sample: &Sample, scene: &Scene) -> Result<Option<Html>> {
     Ok((!rows.is_empty()).then(|| Html::table("Found or assumed, not stated", &headings, rows)))
 }
 
-/// The angle, where a photograph's corners gave it.
+/// The angle, if derived from a photograph's corners.
 fn angle(scene: &Scene) -> Result<Option<[String; 3]>> {
     let number = |field: &str| -> Result<Option<f64>> {
         Ok(scene.fields.text_at(&format!("geometry.{field}"))?.and_then(|text| text.parse().ok()))
@@ -59,7 +59,7 @@ fn angle(scene: &Scene) -> Result<Option<[String; 3]>> {
     Ok(Some(["angle between the panels, degrees".to_owned(), with_sd(angle, sd), sure]))
 }
 
-/// The form of the panels, where corners gave it.
+/// The form of the panels, if derived from corners.
 fn panels(scene: &Scene) -> Result<Option<[String; 3]>> {
     let is_by_corners = calls(scene, "vkernel")?
         .is_some_and(|arguments| has(&arguments, "--regions") && !has(&arguments, "--panel"));
@@ -73,7 +73,7 @@ fn panels(scene: &Scene) -> Result<Option<[String; 3]>> {
     Ok(panel.map(row))
 }
 
-/// Whose spectral sensitivities stand for the camera, where the photograph named it.
+/// The camera whose spectral sensitivities are used, if the photograph named the camera.
 fn camera(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
     let is_by_photograph = calls(scene, "vextract")?.is_some_and(|arguments| !has(&arguments, "--camera"));
     let Some(name) = scene.fields.text_at("camera.name")?.filter(|_| is_by_photograph) else {
@@ -95,7 +95,7 @@ fn camera(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
     Ok(Some(["camera".to_owned(), name, sure]))
 }
 
-/// The light, where nobody stated it.
+/// The light, if not stated.
 fn light(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
     let is_open = calls(scene, "vextract")?.is_some_and(|arguments| !has(&arguments, "--illuminant"));
     if !is_open || scene.is_light_unknown()? {
@@ -128,7 +128,7 @@ fn day(sample: &Sample) -> Result<Option<[String; 3]>> {
     Ok(Some(["kind of day".to_owned(), kind, format!("probability {}", digits(probability, 0.0))]))
 }
 
-/// Arguments with which a tool made the scene; none if nobody recorded them.
+/// Arguments with which a tool made the scene; none if they were not recorded.
 fn calls(scene: &Scene, tool: &str) -> Result<Option<Vec<String>>> {
     let last = |lines: Vec<HistoryRecord>| lines.into_iter().rfind(|line| line.tool == tool);
     Ok(last(scene.fields.history()?).map(|line| line.arguments))

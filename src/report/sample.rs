@@ -1,4 +1,4 @@
-//! The section of one sample: drawings, scores, and what the tools decided.
+//! The section on one sample: drawings, scores, and the tools' decisions.
 
 use super::html::Html;
 use super::tables::{folded, pairs};
@@ -10,12 +10,11 @@ use crate::estimate::verdict::Level;
 use crate::plot::sheet::Sheet;
 use crate::stream::{CandidateRecord, EstimateRecord, FittedRecord, Sample};
 
-/// Fields that have a table or a drawing of their own, or are what all records have.
+/// Fields with their own table or drawing, or common to all records.
 const SHOWN_ELSEWHERE: [&str; 6] = ["kind", "scene", "id", "metrics", "estimate", "truth"];
 const SHOWN_OF_ESTIMATE: [&str; 6] = ["fit", "findings", "verdict", "reflectance", "reflectance_sd", "light"];
 
-/// All that is known of a sample: what to think of it, its spectrum and its picture, then what it rests on;
-/// the rest is folded away.
+/// Everything on a sample: its verdict, spectrum and picture, then their basis; the rest is collapsed.
 pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &View) -> Result<Html> {
     let sample = &shown.sample;
     let mut parts = vec![Html::element("h2", &[], sample.id())];
@@ -45,7 +44,7 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     Ok(Html::element("section", &[("class", "sample"), ("id", &id)], parts))
 }
 
-/// The verdict; of a record without one what speaks against it.
+/// The verdict, or the doubts on a record without one.
 fn judged(estimate: &EstimateRecord) -> Vec<Html> {
     match &estimate.verdict {
         Some(verdict) => {
@@ -59,7 +58,7 @@ fn judged(estimate: &EstimateRecord) -> Vec<Html> {
     }
 }
 
-/// A verdict whose level, its first word, stands out.
+/// A verdict with its level, the first word, emphasised.
 fn with_level(verdict: &str) -> Html {
     match verdict.split_once(':') {
         Some((level, why)) => vec![Html::element("strong", &[], level), format!(":{why}").into()].into(),
@@ -67,7 +66,7 @@ fn with_level(verdict: &str) -> Html {
     }
 }
 
-/// What of the photograph is not ideal.
+/// Deviations of the photograph from the ideal.
 fn findings(estimate: &EstimateRecord) -> Option<Html> {
     let rows = estimate.findings.iter().map(|one| vec![one.what.as_str().into(), one.remedy.as_str().into()]);
     let headings = ["not ideal about the photograph, and allowed for", "what to do"];
@@ -91,7 +90,7 @@ fn residuals(sheet: &Sheet) -> Result<Option<Html>> {
     Ok(Some(Html::figure(Html::drawing(&svg, &words), "Patternless where the model is right.")))
 }
 
-/// What the light may have been, where nobody stated it.
+/// The candidates for the light, if not stated.
 fn light(estimate: &EstimateRecord) -> Option<Html> {
     let light = estimate.light.as_ref()?;
     let row = |one: &CandidateRecord| vec![one.name.as_str().into(), digits(one.probability, 0.0).into()];
@@ -99,7 +98,7 @@ fn light(estimate: &EstimateRecord) -> Option<Html> {
     Some(Html::table("The light, as the facets have it", &["light", "probability"], rows))
 }
 
-/// What was fitted, each number with its standard deviation, in its unit.
+/// The fitted unknowns, each with its standard deviation, in its unit.
 fn fitted(estimate: &EstimateRecord) -> Option<Html> {
     let row = |one: (&Unknown, &FittedRecord)| {
         let (unknown, FittedRecord { value, sd, supported }) = one;
@@ -112,7 +111,7 @@ fn fitted(estimate: &EstimateRecord) -> Option<Html> {
     (!rows.is_empty()).then(|| Html::table("Fitted along with the spectrum", &headings, rows))
 }
 
-/// Numbers that have neither a drawing nor a table of their own.
+/// Fields without their own drawing or table.
 fn rest(sample: &Sample) -> Vec<Html> {
     let leaves = |path| sample.fields.leaves(path);
     let is_shown = |name: &str, shown: &[&str]| shown.contains(&name.split('.').next().unwrap_or_default());
@@ -126,7 +125,7 @@ fn table(caption: &str, rows: Vec<(String, String)>) -> Option<Html> {
     (!rows.is_empty()).then(|| pairs(caption, rows))
 }
 
-/// The spectrum in numbers.
+/// The spectrum as numbers.
 fn numbers(estimate: &EstimateRecord, sample: &Sample) -> Result<Html> {
     let truth = sample.truth()?.map(|truth| truth.reflectance);
     let row = |(n, wavelength_nm): (usize, &f64)| {

@@ -1,4 +1,4 @@
-//! The sections of the scenes that shown samples belong to: what was computed, how, and what was skipped.
+//! The sections on the scenes of the samples shown: what was computed, how, and what was skipped.
 
 use std::sync::Arc;
 
@@ -9,10 +9,10 @@ use super::tables::{folded, pairs};
 use crate::error::Result;
 use crate::stream::Scene;
 
-/// Fields that have a table of their own, or are too large to be read.
+/// Fields with their own table, or too large to read.
 const SHOWN_ELSEWHERE: [&str; 4] = ["kind", "history", "response", "skipped"];
 
-/// A section each scene.
+/// One section per scene.
 pub(super) fn sections(gallery: &Gallery) -> Result<Vec<Html>> {
     let mut scenes: Vec<&Arc<Scene>> = Vec::new();
     for shown in gallery.in_order() {

@@ -1,4 +1,4 @@
-//! Tables that all sections have, and what opens on a click.
+//! Tables common to all sections, and collapsible parts.
 
 use super::html::Html;
 use super::words::{rounded_list, words};
@@ -12,7 +12,7 @@ pub(super) fn pairs(caption: &str, rows: Vec<(String, String)>) -> Html {
     )
 }
 
-/// What opens on a click.
+/// A part that opens on a click.
 pub(super) fn folded(summary: &str, what: Html) -> Html {
     Html::element("details", &[], vec![Html::element("summary", &[], summary), what])
 }

@@ -8,13 +8,13 @@ use crate::spectrum::Spectrum;
 /// Most samples that have a section.
 pub const SECTIONS_MAX: usize = 24;
 
-/// How sheets are looked at.
+/// The conditions under which sheets are shown.
 pub struct View<'a> {
     /// Illuminant of their colours.
     pub illuminant: &'a Spectrum,
     /// Observer of their colours.
     pub observer: Observer,
-    /// Pictures of what was measured: each has its sample's name, or `{}` in the place of it; one alone may
-    /// be called anything.
+    /// Pictures of the measured facets: each has its sample's name, or `{}` in place of it; a single one may
+    /// have any name.
     pub overlays: &'a [PathBuf],
 }

@@ -1,6 +1,6 @@
-//! Fields and numbers in words, for people who have not read what records hold.
+//! Names of fields and numbers for people unfamiliar with the records.
 
-/// Names of fields by their dotted path, and what they are called; others keep their names.
+/// Fields by their dotted path with their names in reports; others keep their own.
 const WORDS: [(&str, &str); 21] = [
     ("rmse", "RMSE of the reflectance"),
     ("ciede2000", "colour difference, CIEDE2000"),
@@ -25,20 +25,20 @@ const WORDS: [(&str, &str); 21] = [
     ("seed", "seed of the noise"),
 ];
 
-/// What a field is called.
+/// The name of a field in reports.
 pub(super) fn words(field: &str) -> String {
     let known = WORDS.iter().find(|(name, _)| *name == field);
     known.map_or_else(|| field.to_owned(), |(_, words)| (*words).to_owned())
 }
 
-/// Digits that count.
+/// Significant digits.
 const DIGITS: i32 = 4;
 /// Most decimals.
 const DECIMALS_MAX: i32 = 9;
-/// Numbers from here on, and below its inverse, are written with an exponent.
+/// Numbers from this on, and below its inverse, are written with an exponent.
 const LARGE: f64 = 1e7;
 
-/// A number with four digits that count, or, if its error bar is larger, as many as that has.
+/// A number with four significant digits, counted from its error bar if that is larger.
 pub(super) fn digits(value: f64, sd: f64) -> String {
     let size = value.abs().max(sd.abs());
     if size > 0.0 && !(1.0 / LARGE..LARGE).contains(&size) {
@@ -49,7 +49,7 @@ pub(super) fn digits(value: f64, sd: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// A number of a record with four digits that count; whole numbers and other texts stay as they are.
+/// A number of a record with four significant digits; integers and other texts remain unchanged.
 pub(super) fn rounded(text: &str) -> String {
     match text.parse::<f64>() {
         Ok(value)
@@ -67,7 +67,7 @@ pub(super) fn rounded_list(text: &str) -> String {
     text.split(", ").map(rounded).collect::<Vec<_>>().join(", ")
 }
 
-/// Seconds after 1970-01-01T00:00Z as a date and time of UTC.
+/// Seconds since 1970-01-01T00:00Z as a date and time in UTC.
 ///
 /// # Source
 /// H. Hinnant, *chrono-compatible low-level date algorithms*, `civil_from_days`.

@@ -1,4 +1,4 @@
-//! The metrics, a row each: what one is called, what it measures, and how it looks in a table.
+//! The metrics, one row each: name, quantity, and format in a table.
 
 use super::{goodness_of_fit, pearson_distance, rmse, spectral_angle_deg};
 use crate::colorimetry::Colorimeter;
@@ -6,11 +6,11 @@ use crate::colorimetry::Colorimeter;
 /// A kind of score.
 #[derive(Debug)]
 pub struct Metric {
-    /// What `vscore --metrics` calls it.
+    /// Its name for `vscore --metrics`.
     pub flag: &'static str,
-    /// What records call it; the name of a further illuminant follows, as in `ciede2000_A`.
+    /// Its name in records; that of a further illuminant follows, as in `ciede2000_A`.
     pub name: &'static str,
-    /// What it is.
+    /// What it measures.
     pub help: &'static str,
     /// Which of its values are worse.
     pub worse: Worse,
@@ -18,7 +18,7 @@ pub struct Metric {
     pub width: usize,
     /// Decimals in a table.
     pub decimals: usize,
-    /// Whether it is scored unless others are asked for.
+    /// Whether it is scored by default.
     pub by_default: bool,
     /// How it is computed.
     pub measure: Measure,
@@ -29,11 +29,11 @@ pub struct Metric {
 pub enum Worse {
     /// Larger ones: a distance.
     Larger,
-    /// Smaller ones: a likeness.
+    /// Smaller ones: a similarity.
     Smaller,
 }
 
-/// How a metric is computed, from the true and then the estimated reflectance per waveband.
+/// The function of a metric, of the true and the estimated reflectance per waveband.
 #[derive(Debug)]
 pub enum Measure {
     /// From the spectra alone.
@@ -44,7 +44,7 @@ pub enum Measure {
     Change(fn(&Colorimeter, &Colorimeter, &[f64], &[f64]) -> f64),
 }
 
-/// All metrics, in the order in which they are scored by default.
+/// All metrics, in the order of scoring.
 pub static METRICS: [Metric; 6] = [
     Metric {
         flag: "rmse",
@@ -109,8 +109,7 @@ pub static METRICS: [Metric; 6] = [
 ];
 
 impl Metric {
-    /// The metric of a score in a record, whichever illuminant it is under; none if it is not one of
-    /// [`METRICS`].
+    /// The metric of a score in a record, under any illuminant; none if it is not one of [`METRICS`].
     ///
     /// # Example
     /// ```
@@ -133,7 +132,7 @@ impl Metric {
         matches!(self.measure, Measure::Change(_))
     }
 
-    /// What its scores are called under these illuminants, at least one.
+    /// The names of its scores under these illuminants, at least one.
     #[must_use]
     pub fn score_names(&self, illuminants: &[&str]) -> Vec<String> {
         let first = || std::iter::once(self.name.to_owned());
@@ -145,7 +144,7 @@ impl Metric {
         }
     }
 
-    /// Its scores, one for each of [`Metric::score_names`]; the colorimeters are those of the illuminants.
+    /// Its scores, one for each of [`Metric::score_names`]; there is one colorimeter per illuminant.
     #[must_use]
     pub fn scores(&self, colorimeters: &[Colorimeter], truth: &[f64], estimate: &[f64]) -> Vec<f64> {
         match self.measure {
@@ -162,7 +161,7 @@ impl Metric {
 }
 
 impl Worse {
-    /// Of the scores called `name`; larger ones where no metric is known by that name.
+    /// For the scores called `name`; larger ones if the metric is unknown.
     pub(super) fn of_score(name: &str) -> Self {
         Metric::of_score(name).map_or(Self::Larger, |metric| metric.worse)
     }

@@ -5,7 +5,7 @@ use super::Worse;
 /// A score of one sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
-    /// What it is called in records: `rmse`, `ciede2000`, ...
+    /// Its name in records: `rmse`, `ciede2000`, ...
     pub name: String,
     /// Its value.
     pub value: f64,
@@ -18,7 +18,7 @@ impl Score {
         Self { name: name.into(), value }
     }
 
-    /// How bad it is: the value, or its negative where smaller values are worse.
+    /// Its badness: the value, or its negative if smaller values are worse.
     #[must_use]
     pub fn badness(&self) -> f64 {
         match Worse::of_score(&self.name) {
@@ -31,13 +31,13 @@ impl Score {
 /// Mean, median and worst of a score.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statistics {
-    /// What the score is called.
+    /// Name of the score.
     pub name: String,
     /// Mean.
     pub mean: f64,
     /// Median.
     pub median: f64,
-    /// The largest, or the smallest where smaller values are worse.
+    /// The largest, or the smallest if smaller values are worse.
     pub worst: f64,
 }
 
@@ -69,7 +69,7 @@ pub struct Group {
 }
 
 impl Summary {
-    /// Counts a sample, and its scores if it has any.
+    /// Counts a sample, and adds its scores if any.
     pub fn add(&mut self, scores: Option<&[Score]>) {
         self.samples += 1;
         self.scored += usize::from(scores.is_some());
@@ -93,12 +93,12 @@ impl Summary {
         self.scored
     }
 
-    /// All values of each score, in the order in which they came.
+    /// All values of each score, in order of appearance.
     pub fn values(&self) -> impl Iterator<Item = &[f64]> {
         self.scores.iter().map(|(_, values)| values.as_slice())
     }
 
-    /// Mean, median and worst of each score, in the order in which they came.
+    /// Mean, median and worst of each score, in order of appearance.
     #[must_use]
     pub fn statistics(&self) -> Vec<Statistics> {
         self.scores.iter().map(|(name, values)| statistics(name, values)).collect()

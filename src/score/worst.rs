@@ -1,6 +1,6 @@
-//! The worst of many, in bounded memory.
+//! The worst of many items, in bounded memory.
 
-/// Keeps up to `most` items, those of largest badness; of equally bad ones those that came first.
+/// Keeps up to `most` items with the largest badness; among equals, the earliest.
 ///
 /// # Example
 /// ```
@@ -14,7 +14,7 @@
 pub struct Worst<T> {
     most: usize,
     seen: usize,
-    /// Worst first, each with its badness and how many came before.
+    /// Worst first, each with its badness and the number of preceding items.
     kept: Vec<(f64, usize, T)>,
 }
 
@@ -35,18 +35,18 @@ impl<T> Worst<T> {
         self.seen += 1;
     }
 
-    /// How many there were.
+    /// Number of items seen.
     #[must_use]
     pub fn seen(&self) -> usize {
         self.seen
     }
 
-    /// Those that are kept, worst first.
+    /// The kept items, worst first.
     pub fn ranked(&self) -> impl Iterator<Item = &T> {
         self.kept.iter().map(|(.., item)| item)
     }
 
-    /// Those that are kept, in the order in which they came.
+    /// The kept items, in their original order.
     pub fn in_order(&self) -> impl Iterator<Item = &T> {
         let mut kept: Vec<_> = self.kept.iter().collect();
         kept.sort_by_key(|(_, before, _)| *before);

@@ -1,4 +1,4 @@
-//! How well the bounces of a scene are solved.
+//! The accuracy with which a scene's bounces are solved.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -76,7 +76,7 @@ impl From<&KernelSource> for KernelRecord {
 }
 
 impl Scene {
-    /// Says how good the response is and which mesh gave it.
+    /// Records the accuracy of the response and its mesh.
     ///
     /// # Errors
     /// As [`Fields::set`](super::Fields::set).
@@ -84,7 +84,7 @@ impl Scene {
         self.fields.set("accuracy", AccuracyRecord::new(mesh, tolerance, accuracy))
     }
 
-    /// Whether the scene says how its bounces were solved.
+    /// Whether the scene records how its bounces were solved.
     #[must_use]
     pub fn has_accuracy(&self) -> bool {
         self.fields.has("accuracy")
@@ -94,7 +94,7 @@ impl Scene {
         self.fields.require("accuracy", BY_VKERNEL)
     }
 
-    /// The mesh on which the bounces were solved, as `vkernel --mesh` names it.
+    /// The mesh on which the bounces were solved, in the terms of `vkernel --mesh`.
     ///
     /// # Errors
     /// [`Error::Field`] if it is not there.
@@ -110,7 +110,7 @@ impl Scene {
         Ok(self.accuracy()?.unknowns)
     }
 
-    /// Relative error that the response was allowed.
+    /// Tolerance for the relative error of the response.
     ///
     /// # Errors
     /// [`Error::Field`] if it is not there or not between 0 and 1.

@@ -1,4 +1,4 @@
-//! What a sample records of its calibration by a chart or a white card.
+//! The record of a sample's calibration by a chart or a white card.
 
 use std::fmt;
 
@@ -57,7 +57,7 @@ struct PatchRecord {
 
 impl CalibrationRecord {
     /// The record of a calibration by `patches` in `grid` rows and columns between `corners`, px, whose
-    /// normal is at an angle of cosine `cos` to the sun; `by` says what they are.
+    /// normal is at an angle of cosine `cos` to the sun; `by` names the target.
     #[must_use]
     pub fn new(
         by: &'static str,
@@ -102,7 +102,7 @@ impl CalibrationRecord {
     }
 }
 
-/// One line for people.
+/// One line for users.
 impl fmt::Display for CalibrationRecord {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let percent = |residual: &f64| format!("{:.2} %", 100.0 * residual);
@@ -121,7 +121,7 @@ impl fmt::Display for CalibrationRecord {
 }
 
 impl Sample {
-    /// Says how the facets were calibrated, and sets the exposure that this gave them.
+    /// Records how the facets were calibrated, and sets the resulting exposure.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.

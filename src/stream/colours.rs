@@ -1,5 +1,5 @@
 //! Values of facets in a sample: `[facet][channel]` for one picture, `[picture][facet][channel]` for several,
-//! under a light each.
+//! each under its own light.
 
 use std::ops::RangeInclusive;
 
@@ -25,7 +25,7 @@ pub(super) enum ColoursRecord {
 }
 
 impl Sample {
-    /// Sets the facets' values in a number of `pictures` and, where known, their standard deviations.
+    /// Sets the facets' values in `pictures` pictures and, where known, their standard deviations.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
@@ -42,7 +42,7 @@ impl Sample {
         Ok(())
     }
 
-    /// The facets' values; a facet counts as measured if all pictures have it.
+    /// The facets' values; a facet counts as measured if all pictures contain it.
     ///
     /// # Errors
     /// [`Error::Field`] if they are missing.
@@ -59,7 +59,7 @@ impl Sample {
         self.colours("facet_sd", 0.0..=LARGEST)
     }
 
-    /// A field, pictures beside each other.
+    /// A field, with pictures side by side.
     fn colours(&self, name: &str, range: RangeInclusive<f64>) -> Result<Option<FacetValues>> {
         let facets: Option<Rows> = match self.fields.get(name) {
             Ok(facets) => facets,

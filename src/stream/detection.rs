@@ -1,4 +1,4 @@
-//! What `vextract --find` prints: where fold and chart are in a photograph, in the form of regions.
+//! Output of `vextract --find`: positions of fold and chart in a photograph, in the form of regions.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use super::named::Named;
 use crate::error::{Error, Result};
 use crate::image::{DetectedChart, DetectedFold, FoldAngle, NoFold, Photograph, Point};
 
-/// A fold and a chart, as a file of regions has them; or that there is no fold, and why.
+/// A fold and a chart in the form of a regions file; or the reason why there is no fold.
 #[derive(Serialize)]
 struct DetectionRecord {
     /// Name of the picture's file.
@@ -21,7 +21,7 @@ struct DetectionRecord {
     chart: Option<ChartRecord>,
 }
 
-/// The angle that the corners tell.
+/// The angle derived from the corners.
 #[derive(Serialize)]
 struct AngleRecord {
     angle_deg: f64,
@@ -72,14 +72,14 @@ struct ChartRecord {
     chart_confidence: f64,
 }
 
-/// Corners in so many parts of a pixel are as exact as any.
+/// Corners are rounded to this fraction of a pixel, which is accurate enough.
 const PARTS_OF_A_PIXEL: f64 = 1e3;
 const PARTS_OF_CONFIDENCE: f64 = 1e4;
 const PARTS_OF_DEGREE: f64 = 1e2;
 const PARTS_OF_DEPTH: f64 = 1e3;
 
-/// A line that says where a fold is and how far it is open, or why there is none, and where a chart is, which
-/// `--regions` reads.
+/// A line, readable by `--regions`, with the position and angle of a fold, or the reason for its absence, and
+/// the position of a chart.
 ///
 /// # Errors
 /// [`Error::Field`] if it has no form in JSON.
@@ -110,7 +110,7 @@ pub fn detection_line(
     line(&DetectionRecord { image: name(image), size, fold, chart })
 }
 
-/// A line that says why nothing is found in a photograph that cannot be read.
+/// A line that states why nothing is found in an unreadable photograph.
 ///
 /// # Errors
 /// [`Error::Field`] if it has no form in JSON.

@@ -1,4 +1,4 @@
-//! What a camera did to a picture, in a file and in records.
+//! A camera's development of a picture, in a file and in records.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,8 +25,8 @@ impl From<&Development> for DevelopmentRecord {
     }
 }
 
-/// Reads what a camera did to a picture from a JSON file:
-/// `{"white_balance_gains": [r, g, b], "camera_to_linear_srgb": [[..], [..], [..]]}`.
+/// Reads a camera's development of a picture from a JSON file: `{"white_balance_gains": [r, g, b],
+/// "camera_to_linear_srgb": [[..], [..], [..]]}`.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it holds something else,

@@ -1,4 +1,4 @@
-//! What a sample says of its estimate.
+//! The estimate in a sample.
 
 use std::{fmt, iter};
 
@@ -114,19 +114,19 @@ pub struct EstimateRecord {
 /// An estimate for [`Sample::set_estimate`].
 #[derive(Clone, Copy)]
 pub struct NewEstimate<'a> {
-    /// As `vestimate --method` names it.
+    /// In the terms of `vestimate --method`.
     pub method: &'a str,
-    /// The prior as `vestimate --prior` names it, or the basis of the components.
+    /// The prior in the terms of `vestimate --prior`, or the basis of the components.
     pub prior: &'a str,
     /// Wavelengths of the scene.
     pub wavelengths_nm: &'a [f64],
     /// The estimate.
     pub estimate: &'a Estimate,
-    /// What facets were taken to be worth, by a method that weighs them.
+    /// Assumed noise of the facets, for a method that weights them.
     pub noise: Option<&'a Noise>,
-    /// Ids of all samples that it was made of, if there were several.
+    /// Ids of all samples used, if several.
     pub joined: &'a [String],
-    /// Whether it can be trusted, by a method that knows how far off it is.
+    /// Whether it can be trusted, for a method that estimates its errors.
     pub verdict: Option<&'a Verdict>,
     /// Whether to record the covariance, waveband by waveband.
     pub with_covariance: bool,
@@ -270,7 +270,7 @@ impl From<&Fitted> for FittedRecord {
 }
 
 impl EstimateRecord {
-    /// Whether there are as many values as wavelengths, two or more.
+    /// Whether there are as many values as wavelengths, at least two.
     fn is_spectrum(&self) -> bool {
         let count = self.wavelengths_nm.len();
         let rows = self.covariance.iter().flatten();
@@ -280,7 +280,7 @@ impl EstimateRecord {
         count > 1 && counts.all(|other| other == count)
     }
 
-    /// What is known of the errors of the reflectance; none if the method does not know them.
+    /// Error bars of the reflectance; none if the method does not provide them.
     #[must_use]
     pub fn error_bars(&self) -> Option<ErrorBars<'_>> {
         match (&self.covariance, &self.reflectance_sd) {
@@ -290,7 +290,7 @@ impl EstimateRecord {
         }
     }
 
-    /// The scene in the light that was found; none if the scene says its own.
+    /// The scene in the inferred light; none if the scene states its own.
     ///
     /// # Errors
     /// As [`Scene::in_light`].
@@ -301,13 +301,13 @@ impl EstimateRecord {
         }
     }
 
-    /// What the sheet sends out of white's light: its reflectance, unless it was found to fluoresce.
+    /// The total radiance factor: the reflectance, unless the sheet was found to fluoresce.
     #[must_use]
     pub fn total_radiance_factor(&self) -> &[f64] {
         self.total_radiance_factor.as_ref().unwrap_or(&self.reflectance)
     }
 
-    /// As a file of spectra has it, under that name; of a sheet that fluoresces also its total radiance
+    /// In the form of a file of spectra, under this name; for a fluorescent sheet also its total radiance
     /// factor, as `NAME total`.
     pub fn measured(&self, name: String) -> impl Iterator<Item = Measured> {
         let wavelengths_nm = self.wavelengths_nm.clone();
@@ -321,17 +321,18 @@ impl EstimateRecord {
         iter::once(Measured { name, wavelengths_nm, reflectance, reflectance_sd }).chain(total)
     }
 
-    /// What was fitted along, with its values.
+    /// The fitted unknowns with their values.
     pub fn fitted(&self) -> impl Iterator<Item = (&'static Unknown, f64)> {
         self.fit.iter().flat_map(Quantities::iter).map(|(unknown, fitted)| (unknown, fitted.value))
     }
 
-    /// What was fitted along, with its standard deviation.
+    /// The fitted unknowns with their records.
     pub fn fits(&self) -> impl Iterator<Item = (&'static Unknown, &FittedRecord)> {
         self.fit.iter().flat_map(Quantities::iter)
     }
 
-    /// Why the estimate may mean nothing: facets far from the model, numbers of which the facets say nothing.
+    /// Reasons why the estimate may be meaningless: facets far from the model, unknowns that the facets do
+    /// not determine.
     #[must_use]
     pub fn doubts(&self) -> Vec<String> {
         let warning = Some(self.residual_rms).filter(|rms| *rms > WRONG_CHI).map(|rms| {
@@ -340,8 +341,8 @@ impl EstimateRecord {
                  light, camera and exposure"
             )
         });
-        // Of a real sheet much is fitted that nobody asked for, and stays at its prior where the facets do
-        // not speak of it.
+        // For a real sheet many unknowns are fitted by default, which remain at their priors unless the
+        // facets determine them.
         let is_real =
             self.fit.iter().flat_map(Quantities::iter).any(|(unknown, _)| unknown.is_of_photographs());
         let assumed = self.fit.iter().flat_map(Quantities::iter);
@@ -354,7 +355,7 @@ impl EstimateRecord {
 }
 
 impl Sample {
-    /// Adds an estimate; as the record has it.
+    /// Adds an estimate and returns its record.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
@@ -411,7 +412,7 @@ impl Sample {
         Ok(record)
     }
 
-    /// What an estimate of this sample took facets to be worth.
+    /// The noise of the facets assumed by an estimate of this sample.
     ///
     /// # Errors
     /// As [`Sample::noise`].
@@ -425,7 +426,7 @@ impl Sample {
     /// The estimate; none if the sample has none, or carries an error.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is no spectrum with as many values as wavelengths, each from 0 to 1.
+    /// [`Error::Field`] unless it is a spectrum with as many values as wavelengths, each from 0 to 1.
     pub fn estimate(&self) -> Result<Option<EstimateRecord>> {
         match self.made::<EstimateRecord>("estimate")? {
             Some(estimate) if !estimate.is_spectrum() => {
@@ -442,7 +443,7 @@ impl Sample {
         }
     }
 
-    /// Whether this is what an estimate, or the attempt of one, made of `measured`.
+    /// Whether this is the result of an estimate, successful or not, of `measured`.
     #[must_use]
     pub fn is_estimate_of(&self, measured: &Self) -> bool {
         let same = |name: &&str| self.fields.text(name) == measured.fields.text(name);
@@ -453,7 +454,7 @@ impl Sample {
     /// An estimate of this sample as a curve to draw.
     #[must_use]
     pub fn curve(&self, estimate: &EstimateRecord) -> Curve {
-        // vscore judges the truth; what is not a spectrum cannot be drawn.
+        // vscore checks the truth; what is not a spectrum cannot be drawn
         let truth = self.truth().ok().flatten().map(|truth| (truth.wavelengths_nm, truth.reflectance));
         let light = estimate.light.as_ref().map(InferredLightRecord::curve);
         Curve {

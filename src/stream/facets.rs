@@ -1,4 +1,4 @@
-//! The scene's facets: a grid on each panel of a fold, or a list of any others.
+//! The scene's facets: a grid on each panel of a fold, or a list for any other surface.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -108,7 +108,7 @@ impl Scene {
     /// Number of facets of any surface.
     ///
     /// # Errors
-    /// [`Error::Field`] if the scene does not say it.
+    /// [`Error::Field`] if the scene does not state it.
     pub fn facet_count(&self) -> Result<usize> {
         match self.fold_if_one()? {
             Some(fold) => Ok(2 * fold.facets().len()),

@@ -1,11 +1,11 @@
-//! Samples that carry an error, counted as they are written.
+//! Counts samples that carry an error as they are written.
 
 use std::fmt;
 
 use super::Sample;
 use crate::error::Result;
 
-/// How many samples of a stream carry an error, and what the first says.
+/// Number of samples in a stream that carry an error, with the first message.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Failures {
     samples: usize,

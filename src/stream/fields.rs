@@ -1,7 +1,7 @@
-//! A record as a bag of named fields, in the order they came.
+//! A record as a set of named fields, in their original order.
 //!
-//! A field stays the text that it came as until somebody asks what it says: what passes through takes no more
-//! memory than its line, and comes out as it went in.
+//! A field remains text until it is read: fields passed through take no more memory than their line, and are
+//! written unchanged.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -13,17 +13,17 @@ use serde_json::value::{RawValue, to_raw_value};
 
 use crate::error::{Error, Result};
 
-/// Largest number that is read of colours, spectra and exposures: sums, products and squares of such numbers
-/// stay finite.
+/// Largest number accepted in colours, spectra and exposures: sums, products and squares of such numbers
+/// remain finite.
 pub(super) const LARGEST: f64 = 1e30;
 
-/// What to do where a part of a scene is missing.
+/// Remedy for a missing part of a scene.
 pub(super) const BY_VKERNEL: &str = "make the scene with vkernel";
 
 /// Most fields of a record; those of the tools are two dozen.
 const FIELDS_MAX: usize = 1000;
 
-/// Most values that are read of one field: numbers of full length fill the longest line before. Short ones,
+/// Most values read from one field: numbers at full precision reach the longest line first. Short ones,
 /// `1,1,1`, take many times the memory of their text.
 const VALUES_MAX: usize = 1 << 26;
 
@@ -32,10 +32,10 @@ const VALUES_MAX: usize = 1 << 26;
 pub struct Fields(Vec<(String, Box<RawValue>)>);
 
 impl Fields {
-    /// The fields of a record; the caller has made sure with [`finite`] that its numbers are numbers.
+    /// The fields of a record; the caller has checked with [`finite`] that its numbers are finite.
     ///
     /// # Errors
-    /// [`Error::Field`] if it has no form in JSON.
+    /// [`Error::Field`] if it cannot be written as JSON.
     pub(super) fn of(record: &impl Serialize) -> Result<Self> {
         let text = to_raw_value(record).map_err(|e| Error::field("kind", e))?;
         serde_json::from_str(text.get()).map_err(|e| Error::field("kind", problem(&e)))
@@ -52,12 +52,12 @@ impl Fields {
         self.0.iter().map(|(name, _)| name.as_str())
     }
 
-    /// A field as it stands in the line; none if it is absent.
+    /// A field's text in the line; none if it is absent.
     pub(super) fn text(&self, name: &str) -> Option<&str> {
         self.raw(name).map(RawValue::get)
     }
 
-    /// Whether a field is there and not null.
+    /// Whether a field is present and not null.
     #[must_use]
     pub fn has(&self, name: &str) -> bool {
         self.text(name).is_some_and(|text| text != NULL)
@@ -78,7 +78,7 @@ impl Fields {
         }
     }
 
-    /// A field that the tool cannot do without; `remedy` says which tool or flag adds it.
+    /// A field that the tool requires; `remedy` names the tool or flag that adds it.
     ///
     /// # Errors
     /// [`Error::Field`] if it is absent, null or holds something else.
@@ -86,8 +86,8 @@ impl Fields {
         self.get(name)?.ok_or_else(|| Error::field(name, format!("missing; {remedy}")))
     }
 
-    /// What a dotted path leads to, through objects by name and lists by number; none if it leads nowhere, or
-    /// to what is nested too deeply or too large to be read.
+    /// The value at a dotted path, through objects by name and lists by index; none if it does not exist, is
+    /// nested too deeply or is too large.
     pub(super) fn at(&self, path: &str) -> Option<Value> {
         let mut parts = path.split('.');
         let first = self.raw(parts.next()?)?;
@@ -118,17 +118,17 @@ impl Fields {
         }
     }
 
-    /// Sets a field; the caller has made sure with [`finite`] that its numbers are numbers.
+    /// Sets a field; the caller has checked with [`finite`] that its numbers are finite.
     ///
     /// # Errors
-    /// [`Error::Field`] if the value has no form in JSON.
+    /// [`Error::Field`] if the value cannot be written as JSON.
     pub fn set(&mut self, name: &str, value: impl Serialize) -> Result<()> {
         let value = to_raw_value(&value).map_err(|e| Error::field(name, e))?;
         self.insert(name.to_owned(), value);
         Ok(())
     }
 
-    /// Takes a field out, if it is there.
+    /// Removes a field, if present.
     pub fn remove(&mut self, name: &str) {
         self.0.retain(|(other, _)| other != name);
     }
@@ -140,7 +140,7 @@ impl Fields {
         }
     }
 
-    /// Adds an entry to a field that is a list, or makes it; entries that it has stay as they are.
+    /// Appends an entry to a list field, created if absent; existing entries remain unchanged.
     ///
     /// # Errors
     /// As [`Fields::set`]; [`Error::Field`] if it is not a list.
@@ -156,7 +156,7 @@ impl Fields {
     }
 }
 
-/// Records are alike if they are written alike.
+/// Records are equal if their texts are equal.
 impl PartialEq for Fields {
     fn eq(&self, other: &Self) -> bool {
         self.names().eq(other.names()) && self.names().all(|name| self.text(name) == other.text(name))
@@ -198,7 +198,7 @@ impl<'de> Visitor<'de> for ReadFields {
 
 const NULL: &str = "null";
 
-/// What a value says; or what is wrong with it.
+/// The value of a field, or what is wrong with it.
 fn read<T: DeserializeOwned>(value: &RawValue) -> std::result::Result<T, String> {
     if !is_readable(value) {
         return Err(format!("more than {VALUES_MAX} values; take fewer facets or wavelengths"));
@@ -211,7 +211,7 @@ fn is_readable(value: &RawValue) -> bool {
     text.len() <= VALUES_MAX || text.iter().filter(|byte| b",[{".contains(byte)).count() <= VALUES_MAX
 }
 
-/// The value of this name in an object, or of this number in a list.
+/// The value of this name in an object, or at this index in a list.
 fn inner<'a>(value: &'a RawValue, part: &str) -> Option<&'a RawValue> {
     let text = is_readable(value).then(|| value.get())?;
     if text.starts_with('[') {
@@ -222,7 +222,7 @@ fn inner<'a>(value: &'a RawValue, part: &str) -> Option<&'a RawValue> {
     fields.remove(part)
 }
 
-/// What is wrong with JSON, without the place: that in a field tells nobody where to look.
+/// What is wrong with JSON, without the position, which is of no use within a field.
 pub(super) fn problem(error: &serde_json::Error) -> String {
     let place = format!(" at line {} column {}", error.line(), error.column());
     let text = error.to_string();

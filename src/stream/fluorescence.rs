@@ -1,4 +1,4 @@
-//! What an estimate says of light that the sheet sends out itself.
+//! An estimate's statement on light emitted by the sheet.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,7 +25,7 @@ pub struct FluorescenceRecord {
 }
 
 impl FluorescenceRecord {
-    /// That of a sheet.
+    /// The record of a sheet's fluorescence.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.
@@ -51,7 +51,7 @@ pub(super) struct LightThroughRecord {
 }
 
 impl LightThroughRecord {
-    /// That of a sheet.
+    /// The record of light through a sheet.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.

@@ -1,4 +1,4 @@
-//! The scene's geometry: a fold, or any surface as a mesh or as nothing but its kernel.
+//! The scene's geometry: a fold, or any surface as a mesh or by its kernel alone.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -53,7 +53,7 @@ impl From<&Fold> for FoldRecord {
     }
 }
 
-/// What is wrong with another surface where a fold is needed.
+/// The error for another surface where a fold is needed.
 #[must_use]
 pub fn needs_fold() -> Error {
     let problem = "a fold is needed here, and this is another shape; make the scene with vkernel --angle-deg";
@@ -65,7 +65,7 @@ impl Scene {
         self.fields.require("geometry", BY_VKERNEL)
     }
 
-    /// Says how exactly the angle of the fold is known: its standard deviation, degrees.
+    /// Sets the standard deviation of the fold's angle, degrees.
     ///
     /// # Errors
     /// [`Error::Field`] if the surface is not a fold.
@@ -74,11 +74,10 @@ impl Scene {
         self.fields.set("geometry", GeometryRecord::Fold(FoldRecord { angle_sd_deg: Some(sd_deg), ..fold }))
     }
 
-    /// How exactly the angle of the fold is known: its standard deviation, degrees; none if nobody said so,
-    /// or there is no fold.
+    /// Standard deviation of the fold's angle, degrees; none if it was not stated, or there is no fold.
     ///
     /// # Errors
-    /// [`Error::Field`] if the geometry is missing or unknown, or no angle is known so.
+    /// [`Error::Field`] if the geometry is missing or unknown, or the standard deviation is impossible.
     pub fn angle_sd_deg(&self) -> Result<Option<f64>> {
         let GeometryRecord::Fold(FoldRecord { angle_sd_deg, .. }) = self.geometry()? else { return Ok(None) };
         match angle_sd_deg {

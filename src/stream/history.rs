@@ -1,4 +1,4 @@
-//! What made a record: the line of history that each tool adds to a scene.
+//! How a record was made: the history entry that each tool adds to a scene.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::Fields;
 use crate::error::Result;
 
-/// Flags that change no record, long and short, and whether a value follows: with others a run has the same
-/// history.
+/// Flags that change no record, long and short, and whether a value follows: runs that differ only in them
+/// have the same history.
 const NO_MATTER: [(&str, &str, bool); 6] = [
     ("--output", "-o", true),
     ("--resume", "--resume", true),
@@ -29,7 +29,7 @@ pub struct HistoryRecord {
 }
 
 impl Fields {
-    /// What the tools did, the first one first.
+    /// The tools' history entries, earliest first.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if `history` is not a list of such records.
@@ -37,8 +37,8 @@ impl Fields {
         Ok(self.get("history")?.unwrap_or_default())
     }
 
-    /// Adds the line that says which tool, of which version, with which arguments, made or changed this
-    /// record. Arguments that change no record are left out.
+    /// Adds an entry with the tool, its version and the arguments that made or changed this record, without
+    /// arguments that change no record.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if `history` is not an array.
@@ -63,7 +63,7 @@ fn that_matter(mut arguments: impl Iterator<Item = String>) -> Vec<String> {
     kept
 }
 
-/// Whether flag and value are one word: `--threads=2`, `-j2`.
+/// Whether flag and value form one word: `--threads=2`, `-j2`.
 fn is_with_value(argument: &str, (long, short, takes_value): &(&str, &str, bool)) -> bool {
     let of_long = argument.strip_prefix(long).is_some_and(|rest| rest.starts_with('='));
     *takes_value && (of_long || (short.len() == 2 && argument.starts_with(short)))

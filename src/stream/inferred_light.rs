@@ -1,4 +1,4 @@
-//! What an estimate says of a light that nobody stated.
+//! The light inferred by an estimate.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use crate::estimate::light::{InferredLight, Weighed};
 use crate::plot::spectra::LightCurve;
 use crate::spectrum::UNKNOWN_LIGHT;
 
-/// Candidates that are less probable are not named.
+/// Less probable candidates are omitted.
 const PROBABILITY_LEAST: f64 = 1e-3;
 
 /// The light as it was found along with the reflectance.
@@ -46,7 +46,7 @@ impl From<&Weighed> for CandidateRecord {
 }
 
 impl InferredLightRecord {
-    /// As the record has it.
+    /// The record of an inferred light.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.
@@ -60,7 +60,7 @@ impl InferredLightRecord {
         })
     }
 
-    /// The expected light as a curve to draw.
+    /// The mean light as a curve to draw.
     #[must_use]
     pub fn curve(&self) -> LightCurve {
         let most = self.candidates.first();
@@ -69,7 +69,7 @@ impl InferredLightRecord {
         LightCurve { name, power: self.power.clone() }
     }
 
-    /// The expected light as that of a scene.
+    /// The mean light as an illuminant of a scene.
     #[must_use]
     pub fn spectrum(&self) -> SpectrumRecord {
         let name = self.candidates.first().map_or(UNKNOWN_LIGHT, |first| &first.name);

@@ -1,4 +1,4 @@
-//! JSON files beside the stream: what a user gives a flag.
+//! JSON files passed to flags.
 
 use std::fmt::Display;
 use std::fs::File;
@@ -10,10 +10,10 @@ use super::piped::stdin_is_pipe;
 use crate::error::{Error, Result};
 use crate::files::forms::Text;
 
-/// A list of regions for a hundred thousand photographs is smaller.
+/// Larger than a list of regions for a hundred thousand photographs.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// Reads a JSON file, or standard input for `-`; `example` shows what it should hold.
+/// Reads a JSON file, or standard input for `-`; `example` shows its form.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is too large or holds
@@ -22,7 +22,7 @@ pub(super) fn read<T: DeserializeOwned>(path: &str, example: &str) -> Result<T> 
     parse(path, &text(path, example)?, example)
 }
 
-/// Reads what a JSON file holds.
+/// Parses the contents of a JSON file.
 ///
 /// # Errors
 /// As [`read`].
@@ -30,7 +30,7 @@ pub(super) fn parse<T: DeserializeOwned>(path: &str, text: &str, example: &str) 
     serde_json::from_str(text).map_err(|error| fault(path, error.line(), &error, example))
 }
 
-/// Reads a file of JSON values one after the other, such as NDJSON; `-` is standard input.
+/// Reads a file of successive JSON values, such as NDJSON; `-` is standard input.
 ///
 /// # Errors
 /// As [`read`].

@@ -1,15 +1,15 @@
-//! What a record says, as a list for readers: whatever tools have put there, known here or not.
+//! The contents of a record as a list for readers, including unknown fields.
 
 use serde_json::Value;
 
 use super::Fields;
 
-/// Most items of a list that are listed one by one.
+/// Longest list whose items are listed individually.
 const LISTED: usize = 6;
 
 impl Fields {
     /// All single values under the object at a dotted `path` (empty: the whole record), with their dotted
-    /// names; of long lists how many items they have.
+    /// names; for long lists the number of items.
     ///
     /// # Example
     /// ```

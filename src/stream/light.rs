@@ -194,7 +194,7 @@ impl Scene {
         self.light_on(&self.fold()?)
     }
 
-    /// The same where the fold is known already.
+    /// The same for a known fold.
     ///
     /// # Errors
     /// [`Error::Field`] if sun or sky are missing or leave a panel unlit.
@@ -211,7 +211,7 @@ impl Scene {
         Light::new(fold, tilt_deg, slant_deg, sky).map_err(|e| Error::field("light", e))
     }
 
-    /// Whether light is said by its sources, as it is on other surfaces than folds.
+    /// Whether light is defined by sources, as on surfaces other than folds.
     #[must_use]
     pub fn has_sources(&self) -> bool {
         matches!(self.fields.get::<SourcesRecord>("light"), Ok(Some(_)))

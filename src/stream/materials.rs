@@ -20,7 +20,7 @@ pub struct Material {
 }
 
 impl Scene {
-    /// Says which groups are of known reflectance.
+    /// Sets the groups of known reflectance.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
@@ -29,7 +29,7 @@ impl Scene {
         self.fields.set("materials", materials)
     }
 
-    /// The materials that are known; none where the surface is of one reflectance.
+    /// The known materials; empty if the surface has one reflectance.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not a reflectance, or not on the scene's wavelengths.

@@ -1,4 +1,4 @@
-//! Flat facets in space, as a scene has them.
+//! Flat facets in space, as in a scene.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

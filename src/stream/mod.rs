@@ -1,7 +1,7 @@
-//! The stream between the tools: NDJSON records, and NPY arrays beside them.
+//! The stream between the tools: NDJSON records, and NPY arrays.
 //!
-//! This is the only place that knows JSON. A record keeps every field it came with; the tools read the fields
-//! they know through typed views and add their own.
+//! Only this module deals with JSON. A record keeps all of its fields; the tools read those they know through
+//! typed views and add their own.
 
 mod accuracy;
 mod calibration;

@@ -1,4 +1,4 @@
-//! Values by name, in the order in which they came.
+//! Named values in their original order.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -8,7 +8,7 @@ use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
 
-/// An object whose fields have names that the tools do not fix.
+/// An object with field names that the tools do not define.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Named<T>(pub Vec<(String, T)>);
 

@@ -1,4 +1,4 @@
-//! How far facets were taken to be off.
+//! The assumed noise of facets.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -36,7 +36,7 @@ enum NoiseSourceRecord {
 }
 
 impl NoiseRecord {
-    /// The record of what facets were taken to be worth.
+    /// The record of the assumed noise of facets.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.
@@ -52,8 +52,8 @@ impl NoiseRecord {
 }
 
 impl Sample {
-    /// What facets are worth: noise as it is given, else as the sample says it, else by what no reflectance
-    /// explains; and an error of the model as it is given, else the usual one.
+    /// The noise of facets: the stated one, else that of the sample, else estimated from the residuals that
+    /// no reflectance explains; and the stated model error, else the usual one.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if `facet_sd` does not hold numbers.

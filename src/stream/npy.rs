@@ -10,7 +10,7 @@ use npyz::WriterBuilder;
 use crate::error::{Error, Result};
 use crate::files::Saved;
 
-/// Arrays of one shape, stacked along a new first axis as samples pass, without keeping them in memory.
+/// Arrays of equal shape, stacked along a new first axis as samples pass, without keeping them in memory.
 pub struct ArrayStack {
     saved: Saved,
     data: File,
@@ -31,7 +31,7 @@ impl ArrayStack {
     /// Adds one array.
     ///
     /// # Errors
-    /// [`Error::Array`] if its shape is not that of the arrays before it.
+    /// [`Error::Array`] if its shape differs from that of the previous arrays.
     pub fn push(&mut self, array: ArrayViewD<f64>) -> Result<()> {
         let shape = array.shape();
         let first = self.shape.get_or_insert_with(|| shape.to_vec());
@@ -45,7 +45,7 @@ impl ArrayStack {
         Ok(())
     }
 
-    /// Writes the stack and gives the file its name.
+    /// Writes the stack and renames the file.
     ///
     /// # Errors
     /// [`Error::Array`] if nothing was pushed, [`Error::File`] if it cannot be written.
@@ -63,7 +63,7 @@ impl ArrayStack {
         let mut bytes = Vec::new();
         let mut out = BufWriter::new(self.saved.file_mut());
         let mut writer = begin(&shape, &mut out).map_err(failed)?;
-        // In pieces, so that memory stays flat however many records there were.
+        // in pieces, so that memory use does not depend on the number of records
         while (&mut self.data).take(1 << 20).read_to_end(&mut bytes).map_err(failed)? > 0 {
             let values =
                 bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(std::array::from_fn(|i| chunk[i])));
@@ -77,12 +77,12 @@ impl ArrayStack {
     }
 }
 
-/// Values wait in the system's folder for temporary files until their number is known.
+/// Values are stored in the system's folder for temporary files until their number is known.
 fn spilled(source: std::io::Error) -> Error {
     Error::file(std::env::temp_dir().display(), source)
 }
 
-/// Writes a matrix row by row, so that one row at a time is in memory.
+/// Writes a matrix with only one row in memory at a time.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be written.

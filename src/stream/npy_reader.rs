@@ -1,4 +1,4 @@
-//! Arrays as NPY files, read: nothing is taken in before the header agrees with what is needed and with the
+//! Reads arrays from NPY files: no values are read unless the header agrees with the requirements and the
 //! file's length.
 
 use std::fs::File;
@@ -11,16 +11,16 @@ use npyz::{NpyFile, Order};
 
 use crate::error::{Error, Result};
 
-/// Largest kernel that is read: one of this many facets takes 3 GB.
+/// Largest number of facets of a kernel; one of this size takes 3 GB.
 const SQUARE_MAX: u64 = 20_000;
-/// Longest header that is read, as by NumPy.
+/// Longest header, as in NumPy.
 const HEADER_MAX: u64 = 10_000;
-/// Most brackets in a header: that of a plain array opens two, and the parser's time doubles with each that
-/// is within others.
+/// Most brackets in a header: that of a plain array opens two, and the parser's time doubles with each level
+/// of nesting.
 const BRACKETS_MAX: usize = 8;
 
-/// Reads a matrix of double precision numbers that must have as many rows and columns as `shape` says of what
-/// it names.
+/// Reads a matrix of double precision numbers with the numbers of rows and columns in `shape`, which also
+/// names them.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Array`] if it is not such a matrix.
@@ -56,13 +56,13 @@ pub fn read_rows(path: &Path, cols: usize) -> Result<Array2<f64>> {
     })
 }
 
-/// The same numbers for linear algebra.
+/// The same numbers in the type of the linear algebra library.
 fn matrix(rows: Array2<f64>) -> DMatrix<f64> {
     let (height, width) = rows.dim();
     DMatrix::from_iterator(height, width, rows.reversed_axes())
 }
 
-/// Reads an array whose shape gives a number of rows and columns.
+/// Reads an array; `extents` converts its shape to numbers of rows and columns.
 fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]>) -> Result<Array2<f64>> {
     let failed = |e| Error::file(path.display(), e);
     let wrong = |problem| Error::Array { path: path.display().to_string(), problem };
@@ -90,11 +90,11 @@ fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]
     Array2::from_shape_vec(shape, values).map_err(|e| wrong(format!("{e}; save it again")))
 }
 
-/// What stands before the numbers of an array; none if it would be longer than any.
+/// The bytes before the numbers of an array; none if longer than any valid header.
 fn header(file: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
     let mut header = Vec::new();
     file.take(12).read_to_end(&mut header)?;
-    // version 1 has two bytes for the length of the rest, later ones four
+    // version 1 has two bytes for the length of the rest, later versions four
     let length = match header[..] {
         [.., 1, _, a, b, _, _] => 10 + u64::from(u16::from_le_bytes([a, b])),
         [.., a, b, c, d] => 12 + u64::from(u32::from_le_bytes([a, b, c, d])),

@@ -58,21 +58,21 @@ pub struct StandInRecord {
     pub is_predicted: bool,
 }
 
-/// What looks at a fold and in which light, all on one grid of wavelengths.
+/// Camera and illuminants, all on one wavelength grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Optics {
     /// The wavelengths.
     pub grid: WavelengthGrid,
     /// The camera.
     pub camera: CameraRecord,
-    /// The sun, or whatever stands in its place: a picture under each. None if the light is unknown.
+    /// The sun, or its replacement: one per picture. Empty if the light is unknown.
     pub illuminants: Vec<SpectrumRecord>,
-    /// The sky, if it has another spectrum.
+    /// The sky, if it has a different spectrum.
     pub sky: Option<SpectrumRecord>,
 }
 
 impl Optics {
-    /// Spectra on the wavelengths of a `grid`. A camera sees nothing where it was not measured.
+    /// Spectra on the wavelengths of a `grid`. A camera's sensitivity is zero where it was not measured.
     ///
     /// # Errors
     /// [`Error::Spectrum`] if a light does not cover the wavelengths.
@@ -105,7 +105,7 @@ impl Optics {
 }
 
 impl Scene {
-    /// What looks at the surface and in which light.
+    /// Camera and illuminants of the scene.
     ///
     /// # Errors
     /// As [`Scene::camera`] and [`Scene::illuminants`].
@@ -128,7 +128,7 @@ impl Scene {
         WavelengthGrid::new(wavelengths_nm).map_err(|e| Error::field("wavelengths_nm", e))
     }
 
-    /// Sets what looks at the fold and in which light.
+    /// Sets camera and illuminants.
     ///
     /// # Errors
     /// As [`Fields::set`](super::Fields::set).
@@ -142,7 +142,7 @@ impl Scene {
         optics.sky.as_ref().map_or(Ok(()), |sky| self.fields.set("sky_illuminant", sky))
     }
 
-    /// Forgets what the light is, as far as the scene says it.
+    /// Removes the scene's statements on its light.
     ///
     /// # Errors
     /// As [`Fields::set`](super::Fields::set).
@@ -153,7 +153,7 @@ impl Scene {
         self.fields.set("illuminant_unknown", true)
     }
 
-    /// Whether nobody knows the light.
+    /// Whether the light is unknown.
     ///
     /// # Errors
     /// [`Error::Field`] if that is neither true nor false.
@@ -161,7 +161,7 @@ impl Scene {
         Ok(self.fields.get("illuminant_unknown")?.unwrap_or(false))
     }
 
-    /// The same scene in a light.
+    /// The same scene in this light.
     ///
     /// # Errors
     /// As [`Fields::set`](super::Fields::set).
@@ -172,10 +172,10 @@ impl Scene {
         Ok(lit)
     }
 
-    /// The same scene in the daylight that is assumed where nobody says anything.
+    /// The same scene in the daylight assumed by default.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if that does not cover the wavelengths.
+    /// [`Error::Spectrum`] if it does not cover the wavelengths.
     pub fn in_assumed_light(&self, grid: &WavelengthGrid) -> Result<Self> {
         let power = illuminant(ASSUMED_LIGHT)?.on(grid, Outside::Refuse)?;
         let mut lit =
@@ -184,7 +184,7 @@ impl Scene {
         Ok(lit)
     }
 
-    /// Marks the illuminant as one that nobody stated.
+    /// Marks the illuminant as assumed.
     ///
     /// # Errors
     /// As [`Fields::set`](super::Fields::set).
@@ -192,7 +192,7 @@ impl Scene {
         self.fields.set("daylight_assumed", true)
     }
 
-    /// Whether the illuminant is daylight that nobody stated.
+    /// Whether the illuminant is daylight assumed by default.
     ///
     /// # Errors
     /// [`Error::Field`] if that is neither true nor false.
@@ -222,7 +222,7 @@ impl Scene {
         Ok(camera)
     }
 
-    /// Whether a camera looks at the fold.
+    /// Whether the scene has a camera.
     #[must_use]
     pub fn has_camera(&self) -> bool {
         self.fields.text("camera").is_some()
@@ -248,7 +248,7 @@ impl Scene {
         Ok(illuminants)
     }
 
-    /// The spectrum of the sky, if it has one of its own.
+    /// The spectrum of the sky, if different from the sun's.
     ///
     /// # Errors
     /// [`Error::Field`] if it is not on the scene's wavelengths.
@@ -267,7 +267,7 @@ fn on_grid(grid: &WavelengthGrid, name: &str, spectrum: &SpectrumRecord) -> Resu
     not_negative(name, &spectrum.power)
 }
 
-/// Checks that powers or sensitivities are possible ones.
+/// Checks the range of powers or sensitivities.
 fn not_negative<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> Result<()> {
     match values.into_iter().find(|value| !(0.0..=LARGEST).contains(*value)) {
         Some(value) => Err(Error::field(name, format!("{value:e} cannot be; it needs numbers from 0"))),

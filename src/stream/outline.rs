@@ -1,5 +1,5 @@
-//! The form of the stream for people: every field of every record, one after the other, from the schemas.
-//! What several fields hold alike is listed once.
+//! The form of the stream for people: every field of every record, from the schemas. What several fields have
+//! in common is listed once.
 
 use std::collections::HashMap;
 
@@ -10,27 +10,27 @@ use super::schema::records;
 /// A kind of record.
 #[derive(Clone, Debug)]
 pub struct RecordOutline {
-    /// Its kind.
+    /// Its name.
     pub kind: String,
-    /// What it is.
+    /// Its meaning.
     pub description: String,
-    /// Tools that write it, where all of its fields have the same.
+    /// Tools that write it, if they are the same for all of its fields.
     pub writers: Option<String>,
-    /// Its fields, those of a group after it.
+    /// Its fields; those of a group follow it.
     pub fields: Vec<FieldOutline>,
 }
 
-/// A field of a record, or one form that it can have.
+/// A field of a record, or one of its possible forms.
 #[derive(Clone, Debug)]
 pub struct FieldOutline {
-    /// Names from the outermost on: `estimate.fit.sky`; `[]` is each of a list, `NAME` any name, or any of
-    /// those just listed.
+    /// Names from the outermost inwards: `estimate.fit.sky`; `[]` is each item of a list, `NAME` any name, or
+    /// any of those just listed.
     pub path: String,
-    /// Type and range: `[number from 0 to 1]`; `either` and `or` before its forms.
+    /// Type and range: `[number from 0 to 1]`; `either` and `or` introduce its forms.
     pub holds: String,
     /// Meaning, unit and shape.
     pub description: String,
-    /// Tools that write it, if it is not within another, and not those that write the record.
+    /// Tools that write it, unless it is nested or they are those that write the record.
     pub writers: Option<String>,
 }
 
@@ -61,7 +61,7 @@ pub fn outline() -> Vec<RecordOutline> {
     records.iter().map(outline).collect()
 }
 
-/// Text of a keyword on one line, code as it stands; empty if it is not there.
+/// Text of a keyword on one line, without code marks; empty if it is absent.
 fn text(schema: &Value, keyword: &str) -> String {
     schema[keyword]
         .as_str()
@@ -72,28 +72,29 @@ fn text(schema: &Value, keyword: &str) -> String {
         .join(" ")
 }
 
-/// A record's schema on the way through it.
+/// State of the walk through a record's schema.
 struct Walk<'a, 'n> {
     root: &'a Value,
     kind: &'a str,
     fields: Vec<FieldOutline>,
-    /// Where an object that is referred to was listed.
+    /// Paths at which referenced objects were listed.
     listed: HashMap<&'a str, String>,
-    /// Where so many names were listed with their meanings, in any record.
+    /// Paths at which a group of names was listed with the same meanings, in any record.
     names: &'n mut HashMap<String, String>,
 }
 
-/// So many fields in a row that hold the same objects, or that another record has too, are listed once.
+/// At least this many consecutive fields that hold the same objects, or recur in another record, are listed
+/// once.
 const MANY: usize = 3;
 
 impl<'a> Walk<'a, '_> {
-    /// What a schema refers to, or itself.
+    /// The schema that is referenced, or the schema itself.
     fn resolved(&self, schema: &'a Value) -> &'a Value {
         let target = schema["$ref"].as_str().and_then(|target| target.strip_prefix('#'));
         target.and_then(|pointer| self.root.pointer(pointer)).unwrap_or(schema)
     }
 
-    /// Adds the fields of an object, of the objects in a list, or of each form that a value can have.
+    /// Adds the fields of an object, of the objects in a list, or of each possible form of a value.
     fn fields_of(&mut self, schema: &'a Value, path: &str) {
         let name = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
         let is_needed =
@@ -146,7 +147,7 @@ impl<'a> Walk<'a, '_> {
         if let Some(target) = schema["$ref"].as_str() {
             let object = self.resolved(schema);
             match (self.listed.get(target), self.fields.last_mut()) {
-                // within itself, an object is listed again: which of its forms is meant would stay open
+                // within itself, an object is listed again: otherwise its form would be ambiguous
                 (Some(first), Some(last)) if object["properties"].is_object() && !path.starts_with(first) => {
                     last.description += &format!(" Its fields are those of {first}.");
                 }
@@ -158,7 +159,7 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
-    /// Where all these names were listed with the same meanings.
+    /// The path at which all these names were listed with the same meanings.
     fn listed_elsewhere(&mut self, properties: &[(&String, &'a Value)], path: &str) -> Option<String> {
         let all: Vec<_> = properties
             .iter()
@@ -172,7 +173,7 @@ impl<'a> Walk<'a, '_> {
         (*known != place && !known.ends_with(&format!(" of a {}", self.kind))).then(|| known.clone())
     }
 
-    /// Whether two fields hold the same objects, whatever these mean.
+    /// Whether two fields hold the same objects, whatever their meaning.
     fn are_alike(&self, a: &'a Value, b: &'a Value) -> bool {
         let object = |schema| {
             let form = self.forms(schema).first().copied().unwrap_or(schema);
@@ -191,14 +192,14 @@ impl<'a> Walk<'a, '_> {
         self.fields.push(FieldOutline { path, holds, description, writers });
     }
 
-    /// Adds the `n`th form of a value, where no field tells its forms apart.
+    /// Adds the `n`th form of a value whose forms no field distinguishes.
     fn form(&mut self, path: &str, n: usize, schema: &Value) {
         let holds = if n == 0 { "either" } else { "or" }.to_owned();
         let description = text(schema, "description");
         self.fields.push(FieldOutline { path: path.to_owned(), holds, description, writers: None });
     }
 
-    /// The forms of a value that can have several, null aside.
+    /// The possible forms of a value, except null.
     fn forms(&self, schema: &'a Value) -> Vec<&'a Value> {
         let forms = schema["anyOf"].as_array().or(schema["oneOf"].as_array());
         forms.into_iter().flatten().filter(|form| form["type"] != "null").collect()
@@ -245,7 +246,7 @@ impl<'a> Walk<'a, '_> {
     }
 }
 
-/// The range of a number as words; that a count is not negative goes without saying.
+/// The range of a number in words; for a count, a minimum of 0 is implied.
 fn range(schema: &Value) -> String {
     let words = [
         ("exclusiveMinimum", "above"),

@@ -1,4 +1,4 @@
-//! What a sample records of the photograph it was measured in.
+//! The record of the photograph in which a sample was measured.
 
 use std::path::Path;
 
@@ -218,7 +218,8 @@ struct SensorRecord {
 }
 
 impl ImageRecord {
-    /// The record of a photograph with its panels, and of how many pixels share their noise, per channel.
+    /// The record of a photograph with its panels and, per channel, the number of pixels that share their
+    /// noise.
     #[must_use]
     pub fn new(
         path: &Path,
@@ -272,35 +273,35 @@ impl ImageRecord {
         }
     }
 
-    /// The record with the file's checksum, if it is one that stays.
+    /// The record with the file's checksum, if it is a regular file.
     #[must_use]
     pub fn with_checksum(mut self, sha256: Option<String>) -> Self {
         self.sha256 = sha256;
         self
     }
 
-    /// The record with what was done to the numbers, if that shows.
+    /// The record with the detected processing of the numbers, if any.
     #[must_use]
     pub fn with_processing(mut self, processing: Option<Processing>) -> Self {
         self.processing = processing.map(ProcessingRecord::from);
         self
     }
 
-    /// The record with sides along which no edge of the sheet lies, in words.
+    /// The record with the names of sides along which no edge of the sheet lies.
     #[must_use]
     pub fn with_open_sides(mut self, open_sides: Vec<String>) -> Self {
         self.open_sides = open_sides;
         self
     }
 
-    /// The record with the fold that the corners are rather those of than of the scene's.
+    /// The record with the fold that agrees better with the corners than the scene's.
     #[must_use]
     pub fn with_other_fold(mut self, other_fold: Option<OtherFold>) -> Self {
         self.other_fold = other_fold.map(OtherFoldRecord::from);
         self
     }
 
-    /// The record with the lens's coefficients and what refinement did, if they were asked for.
+    /// The record with the lens coefficients and the results of refinement, if requested.
     #[must_use]
     pub fn with_placing(mut self, distortion: Option<[f64; 2]>, refinement: Option<&Refinement>) -> Self {
         self.distortion = distortion;
@@ -323,7 +324,7 @@ fn is_false(value: &bool) -> bool {
     !value
 }
 
-/// What is read of the record of a photograph.
+/// The fields that are read from the record of a photograph.
 #[derive(Deserialize)]
 struct FramingRecord {
     width: u32,
@@ -331,13 +332,13 @@ struct FramingRecord {
     panels: Vec<Option<[[f64; 2]; 4]>>,
 }
 
-/// What is read of the camera's settings.
+/// The fields that are read from the camera's settings.
 #[derive(Deserialize)]
 struct SettingsRecord {
     white_per_klx: Option<f64>,
 }
 
-/// What is read of how a photograph was made.
+/// The fields that are read on how a photograph was made.
 #[derive(Deserialize)]
 struct MakingRecord {
     #[serde(default)]
@@ -359,7 +360,7 @@ struct MakingRecord {
 }
 
 impl MakingRecord {
-    /// How far above black the darkest numbers of the first channel are, white being 1.
+    /// Height of the first channel's darkest numbers above black, white being 1.
     fn darkest_part(&self) -> Option<f64> {
         let level = |levels: &Option<Levels>| levels.as_ref()?.of(0);
         let (darkest, black, white) =
@@ -384,29 +385,29 @@ impl From<MakingRecord> for Making {
 }
 
 impl Sample {
-    /// How the photograph was made; of a sample without one nothing is known.
+    /// How the photograph was made; the default if the sample has none.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    /// [`crate::Error::Field`] if the photograph's record is invalid.
     pub fn making(&self) -> Result<Making> {
         let record: Option<MakingRecord> = self.fields.get("image")?;
         Ok(record.map(Making::from).unwrap_or_default())
     }
 
-    /// Value of a perfect white diffuser under 1000 lx in the photograph, by the camera's settings; none if
-    /// they are not known.
+    /// Value of a perfect white diffuser under 1000 lx in the photograph, from the camera's settings; none if
+    /// they are unknown.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    /// [`crate::Error::Field`] if the photograph's record is invalid.
     pub fn white_per_klx(&self) -> Result<Option<f64>> {
         let record: Option<SettingsRecord> = self.fields.get("image")?;
         Ok(record.and_then(|settings| settings.white_per_klx).filter(|white| *white > 0.0))
     }
 
-    /// Where the panels are in the photograph; none if the sample is not one of two panels.
+    /// Positions of the panels in the photograph; none unless the sample has two panels.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    /// [`crate::Error::Field`] if the photograph's record is invalid.
     pub fn framing(&self) -> Result<Option<Framing>> {
         let record: Option<FramingRecord> = self.fields.get("image")?;
         Ok(record.and_then(|FramingRecord { width, height, panels }| {
@@ -417,7 +418,7 @@ impl Sample {
         }))
     }
 
-    /// Sets the facets as measured in a photograph.
+    /// Sets the facets measured in a photograph.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.

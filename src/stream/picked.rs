@@ -1,14 +1,14 @@
-//! What `vextract --pick` prints: what a person marked in a photograph, in the form of regions.
+//! Output of `vextract --pick`: regions that a person marked in a photograph.
 
 use serde_json::Value;
 
 use super::{Fields, Regions};
 use crate::error::{Error, Result};
 
-/// The line of a regions file that a page sent; `page` is what it is called in errors.
+/// The line of a regions file sent by a web page; `page` is its name in errors.
 ///
 /// # Errors
-/// [`Error::Regions`] if the text is no object of regions, or one without a panel.
+/// [`Error::Regions`] if the text is not an object of regions, or has no panel.
 ///
 /// # Example
 /// ```

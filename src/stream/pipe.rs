@@ -1,4 +1,4 @@
-//! Passing records through a tool: samples on all threads, their order kept.
+//! Passes records through a tool: samples in parallel, their order kept.
 
 use std::iter;
 use std::sync::Arc;
@@ -8,46 +8,45 @@ use super::{Kept, Reader, Record, Sample, Scene, Scenes};
 use crate::error::Result;
 use crate::parallel::{Item, in_order};
 
-/// Samples a thread that are read ahead: enough to keep it busy while one takes long, few enough to keep
-/// memory flat.
+/// Samples per thread read ahead: enough to keep it busy while one takes long, few enough to limit memory.
 pub(super) const AHEAD: usize = 16;
 
-/// What a tool does to the records that pass through it.
+/// The effect of a tool on the records that pass through it.
 pub trait Transform {
-    /// What samples need of their scene.
+    /// Context that samples need from their scene.
     type Context: Send + Sync;
-    /// What is made of a sample beside its record.
+    /// Result for a sample in addition to its record.
     type Aside: Send;
 
-    /// Takes a scene, adds to it, and prepares its samples.
+    /// Receives a scene, adds to it, and prepares for its samples.
     ///
     /// # Errors
-    /// Any: a scene that cannot be used ends the run.
+    /// Any: an unusable scene ends the run.
     fn scene(&self, scene: &mut Scene) -> Result<Self::Context>;
 
-    /// Takes a sample and adds to it; what is made beside it goes to `done` of [`pipe`].
+    /// Receives a sample and adds to it; the additional result goes to `done` of [`pipe`].
     ///
     /// # Errors
-    /// Any: the sample goes out with an `error` field and the run goes on.
+    /// Any: the sample is written with an `error` field and the run continues.
     fn sample(&self, context: &Self::Context, sample: &mut Sample) -> Result<Self::Aside>;
 
-    /// Whether `kept` is what an interrupted run made of `sample`: it need not be made again.
+    /// Whether `kept` is an interrupted run's result for `sample`, so that it need not be recomputed.
     fn is_made(&self, _sample: &Sample, _kept: &Sample) -> bool {
         false
     }
 }
 
-/// A record as it goes out, with what was made beside it.
+/// A record to be written, with its additional result.
 pub(super) type Made<A> = (Record, Option<A>);
 
-/// A record that is as it should be, or a sample with the context of its scene.
+/// A finished record, or a sample with the context of its scene.
 type Step<T> = Item<(Arc<<T as Transform>::Context>, Sample), Result<Made<<T as Transform>::Aside>>>;
 
-/// Passes all records of `reader` through `transform`, samples in parallel; `done` takes them in their order,
-/// each as soon as it is made. Samples that `kept` has are not made again.
+/// Passes all records of `reader` through `transform`, samples in parallel; `done` receives them in order,
+/// each as soon as it is ready. Samples in `kept` are not recomputed.
 ///
 /// # Errors
-/// From the stream itself or from a scene; samples carry their own.
+/// From the stream or from a scene; samples carry their own.
 pub fn pipe<T: Transform + Sync>(
     reader: &mut Reader,
     transform: &T,
@@ -68,7 +67,7 @@ pub fn pipe<T: Transform + Sync>(
     })
 }
 
-/// Reads a record, and does to it all that is not done in parallel.
+/// Reads a record, and does all work on it that is not parallel.
 fn step<T: Transform>(
     reader: &mut Reader,
     transform: &T,
@@ -94,7 +93,8 @@ fn step<T: Transform>(
     Ok(Some(Item::Known(Ok((record, None)))))
 }
 
-/// What a sample needs of its scene; none of one that has an `error`, as one gets whose scene is not there.
+/// The context of a sample's scene; none for a sample with an `error`, which it also gets if its scene is
+/// missing.
 pub(super) fn context_of<C>(
     reader: &Reader,
     contexts: &mut Scenes<Arc<C>>,
@@ -113,7 +113,7 @@ pub(super) fn context_of<C>(
     }
 }
 
-/// The sample as the tool leaves it.
+/// The sample after the tool.
 pub(super) fn transformed<T: Transform>(
     transform: &T,
     context: &T::Context,

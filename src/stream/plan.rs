@@ -1,4 +1,4 @@
-//! The plan record: what estimates from a scene will be worth.
+//! The plan record: the expected accuracy of estimates from a scene.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -61,21 +61,21 @@ struct ExpectedRmse {
 pub struct NewPlan<'a> {
     /// Angle between the panels of a fold, degrees.
     pub angle_deg: Option<f64>,
-    /// The scene of the picture together with which this one will be estimated, and the angle of its fold,
+    /// The scene of the picture that will be estimated jointly with this one, and the angle of its fold,
     /// degrees.
     pub with_photograph: Option<(&'a Scene, Option<f64>)>,
-    /// The reflectances that will be photographed, as `vestimate --reflectance` names them.
+    /// The reflectances that will be photographed, in the terms of `vestimate --reflectance`.
     pub reflectances: &'a str,
     /// Standard deviation of every facet's value, white being 1.
     pub noise_sd: f64,
-    /// Root mean square error to expect of each reflectance.
+    /// Expected root mean square error of each reflectance.
     pub rmse: &'a [f64],
-    /// Standard deviations to expect of what is fitted along.
+    /// Expected standard deviations of the fitted unknowns.
     pub fitted_sd: Vec<(&'static Unknown, f64)>,
 }
 
-/// The record of a plan: RMSE to expect of the reflectances, mean and worst, and the standard deviations of
-/// what is fitted along.
+/// The record of a plan: mean and worst expected RMSE of the reflectances, and expected standard deviations
+/// of the fitted unknowns.
 ///
 /// # Errors
 /// [`crate::Error::Field`] if a number is not finite or the scene has no name.

@@ -1,4 +1,4 @@
-//! What is fitted along with a spectrum, by name.
+//! The fitted unknowns by name.
 
 use std::borrow::Cow;
 
@@ -9,19 +9,19 @@ use serde_json::{Map, Value};
 
 use crate::estimate::unknowns::{self, TABLE, Unknown};
 
-/// Something of each number of a scene that was fitted, in the order of [`TABLE`]; what was not is absent.
+/// One value for each fitted unknown of a scene, in the order of [`TABLE`]; the others are absent.
 #[derive(Clone, Debug)]
 pub(super) struct Quantities<T>(Vec<(&'static Unknown, T)>);
 
 impl<T> Quantities<T> {
-    /// Those of a list; none if it is empty.
+    /// From a list; none if it is empty.
     pub(super) fn of(list: impl IntoIterator<Item = (&'static Unknown, T)>) -> Option<Self> {
         let mut all: Vec<_> = list.into_iter().collect();
         all.sort_by_key(|(unknown, _)| TABLE.iter().position(|one| one == unknown));
         if all.is_empty() { None } else { Some(Self(all)) }
     }
 
-    /// Those that are there.
+    /// The values present.
     pub(super) fn iter(&self) -> impl Iterator<Item = (&'static Unknown, &T)> {
         self.0.iter().map(|(unknown, one)| (*unknown, one))
     }
@@ -33,7 +33,7 @@ impl<T: Serialize> Serialize for Quantities<T> {
     }
 }
 
-/// Names that the tools do not know are passed over.
+/// Unknown names are skipped.
 impl<'de, T: DeserializeOwned> Deserialize<'de> for Quantities<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut all = Vec::new();
@@ -71,7 +71,7 @@ impl<T: JsonSchema> JsonSchema for Quantities<T> {
     }
 }
 
-/// What an unknown is, with its unit.
+/// The description of an unknown, with its unit.
 fn description(unknown: &Unknown) -> String {
     let unit = unknown.unit.map(|unit| format!(", {unit}")).unwrap_or_default();
     format!("{}{unit}.", unknown.description)

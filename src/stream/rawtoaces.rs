@@ -1,8 +1,8 @@
-//! Spectra as the rawtoaces project of the Academy Software Foundation keeps them: cameras, illuminants,
+//! Spectra in the format of the Academy Software Foundation's rawtoaces project: cameras, illuminants,
 //! training data.
 //!
-//! Its schema 1.0.0, and 0.1.0 before it: `index.main` names the spectra, `data.main` has their values at
-//! each wavelength in nm.
+//! Schemas 1.0.0 and 0.1.0: `index.main` names the spectra, `data.main` has their values at each wavelength
+//! in nm.
 
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
@@ -22,7 +22,7 @@ struct SpectraFile {
 
 #[derive(Deserialize)]
 struct SpectralData {
-    /// What the spectra are, in the words of IES TM-27.
+    /// Quantity of the spectra, in the terms of IES TM-27.
     units: Option<String>,
     index: Main<Vec<String>>,
     data: Main<HashMap<String, Vec<f64>>>,
@@ -33,23 +33,23 @@ struct Main<T> {
     main: T,
 }
 
-/// Wavelengths of light, as in other files.
+/// Accepted wavelengths, as in other files.
 const NM: RangeInclusive<f64> = 100.0..=3000.0;
 
 const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\", \"B\"]}, \
                        \"data\": {\"main\": {\"380\": [r, g, b], ..}}}}";
 
-/// Finds what a SPEC names, JSON files among it.
+/// Resolves a SPEC, including JSON files.
 #[must_use]
 pub fn specs() -> Specs {
     Specs::with_json(read)
 }
 
-/// The camera that `spec` names: as [`crate::spectrum::camera`], or a rawtoaces file if the name ends in
+/// The camera named by `spec`: as [`crate::spectrum::camera`], or a rawtoaces file if the name ends in
 /// `.json`.
 ///
 /// # Errors
-/// As [`crate::spectrum::camera`]; [`Error::Record`] with the line if a file is not of rawtoaces' form.
+/// As [`crate::spectrum::camera`]; [`Error::Record`] with the line if a file is not in rawtoaces format.
 ///
 /// # Example
 /// ```
@@ -65,7 +65,7 @@ pub fn camera(spec: &str) -> Result<Sensitivities> {
     specs().camera(spec)
 }
 
-/// The illuminant that `spec` names: as [`crate::spectrum::illuminant`], or a rawtoaces file.
+/// The illuminant named by `spec`: as [`crate::spectrum::illuminant`], or a rawtoaces file.
 ///
 /// # Errors
 /// As [`camera`].
@@ -73,7 +73,7 @@ pub fn illuminant(spec: &str) -> Result<Spectrum> {
     specs().illuminant(spec)
 }
 
-/// The reflectances that `spec` names: as [`crate::spectrum::reflectances`], or a rawtoaces file.
+/// The reflectances named by `spec`: as [`crate::spectrum::reflectances`], or a rawtoaces file.
 ///
 /// # Errors
 /// As [`camera`].

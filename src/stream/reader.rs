@@ -1,4 +1,4 @@
-//! Reading records.
+//! Reads records.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -10,15 +10,15 @@ use crate::error::{Error, Result};
 use crate::files::forms::{other_form, without_mark};
 use crate::room;
 
-/// Longest line that is read: the scene of a 5° fold of 512 x 512 facets has 900 MB.
+/// Longest line: the scene of a 5° fold of 512 x 512 facets has 900 MB.
 const LINE_MAX: u64 = 1 << 30;
 
-/// What is not the beginning of a record after so many bytes is not read to its end.
+/// A line that is not the beginning of a record after this many bytes is not read to its end.
 const BEGINNING: u64 = 1 << 16;
 
 const ONE_RECORD: &str = "each line must be one record";
 
-/// Fields that no other record has, at the beginning, in the middle and at the end of a scene.
+/// Fields that only scenes have, at their beginning, middle and end.
 const OF_SCENES: [&str; 3] = ["\"geometry\"", "\"residues\"", "\"sensitivities\""];
 
 const NO_ROOM: &str =
@@ -27,7 +27,7 @@ const NO_ROOM: &str =
 /// One line of the stream.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Record {
-    /// What follows belongs to this scene.
+    /// The scene of what follows.
     Scene(Scene),
     /// A sample of the scene above it.
     Sample(Sample),
@@ -41,13 +41,13 @@ pub struct Reader {
     path: String,
     line: usize,
     line_bytes: usize,
-    /// Comes before what is read.
+    /// Returned before the records of the source.
     first: Option<Scene>,
-    /// The name of the scene above.
+    /// The name of the current scene.
     scene: String,
-    /// The line of the scene above, if that could not be read.
+    /// The line of the current scene, if it could not be read.
     lost_scene: Option<usize>,
-    /// Whether no record at all is no fault.
+    /// Whether an empty stream is allowed.
     may_be_empty: bool,
 }
 
@@ -64,7 +64,7 @@ impl Reader {
         Ok(Self { may_be_empty: false, ..Self::new(source, path) })
     }
 
-    /// Reads from `source`, which errors call `path`; there may be nothing in it.
+    /// Reads from `source`, named `path` in errors; it may be empty.
     pub(super) fn new(source: Box<dyn BufRead + Send>, path: &str) -> Self {
         Self {
             source,
@@ -78,25 +78,25 @@ impl Reader {
         }
     }
 
-    /// Nothing but a scene.
+    /// A reader of a scene only.
     #[must_use]
     pub fn of(scene: Scene) -> Self {
         Self::new(Box::new(io::empty()), "").after(scene)
     }
 
-    /// The same records with a scene before them.
+    /// The same records, preceded by a scene.
     #[must_use]
     pub fn after(self, scene: Scene) -> Self {
         Self { first: Some(scene), ..self }
     }
 
-    /// The next record, none at the end. A line that holds none, unless it is the first or the last and cut,
-    /// is a sample that carries an error; so is every sample of a scene that cannot be read.
+    /// The next record, none at the end. A line without a record, unless it is the first or the last and cut,
+    /// becomes a sample that carries an error, as does every sample of an unreadable scene.
     ///
     /// # Errors
-    /// [`Error::Record`] with file and line for a stream that begins with no record, ends before its first or
-    /// within one, or has a line that is too long; [`Error::EmptyPipe`] for a pipe with nothing in it;
-    /// [`Error::Located`] for a scene that is not this version's.
+    /// [`Error::Record`] with file and line for a stream that does not begin with a record, ends before its
+    /// first or within one, or has a line that is too long; [`Error::EmptyPipe`] for an empty pipe;
+    /// [`Error::Located`] for a scene of another version.
     pub fn read(&mut self) -> Result<Option<Record>> {
         if let Some(scene) = self.first.take() {
             return Ok(Some(Record::Scene(scene)));
@@ -154,8 +154,7 @@ impl Reader {
         }
     }
 
-    /// What stands in the stream for a line that holds no record: nobody knows what of, but it is counted as
-    /// a sample that failed.
+    /// A replacement for a line without a record: its contents are unknown, but it counts as a failed sample.
     fn lost(&mut self, line: &[u8], error: &Error) -> Result<Record> {
         if is_scene(line) {
             self.lost_scene = Some(self.line);
@@ -165,7 +164,7 @@ impl Reader {
         Ok(Record::Sample(sample))
     }
 
-    /// The next line, or as much of it as tells what is wrong with it; empty at the end.
+    /// The next line, or as much of it as shows what is wrong with it; empty at the end.
     fn line(&mut self) -> io::Result<Vec<u8>> {
         let (mut bytes, mut source) = (Vec::new(), (&mut self.source).take(BEGINNING));
         source.read_until(b'\n', &mut bytes)?;
@@ -176,14 +175,14 @@ impl Reader {
         if is_record(&bytes) {
             read_line(&mut source, &mut bytes)?;
         } else if self.line > 0 && bytes.len() as u64 == BEGINNING {
-            // what is no record takes no memory
+            // a line that is no record takes no memory
             source.skip_until(b'\n')?;
             bytes.extend((source.limit() > 0).then_some(b'\n'));
         }
         Ok(bytes)
     }
 
-    /// Length of the line that was read last.
+    /// Length of the last line.
     pub(super) fn line_bytes(&self) -> usize {
         self.line_bytes
     }
@@ -210,23 +209,23 @@ impl Reader {
         }
     }
 
-    /// The same error with the file and line it belongs to; wrong usage belongs to the command line.
+    /// The same error with its file and line; a usage error belongs to the command line.
     #[must_use]
     pub fn at(&self, error: Error) -> Error {
         match error {
             Error::Usage { .. } => error,
-            // A scene that came from flags has no line.
+            // a scene from flags has no line
             error if self.line == 0 => error,
             other => Error::Located { path: self.path.clone(), line: self.line, source: Box::new(other) },
         }
     }
 
-    /// A sample that stands before all scenes.
+    /// The error for a sample before all scenes.
     pub(super) fn no_scene(&self) -> Error {
         self.wrong("a sample before any scene", "put its scene line first")
     }
 
-    /// What is wrong with the line that was read last.
+    /// An error in the last line.
     pub(super) fn wrong(&self, problem: &str, remedy: &str) -> Error {
         Error::Record {
             path: self.path.clone(),
@@ -237,8 +236,7 @@ impl Reader {
     }
 }
 
-/// Adds the rest of a line, its end with it. `read_until` would end the program where there is no room for
-/// it.
+/// Appends the rest of a line, including its end. `read_until` would abort the program if memory ran out.
 fn read_line(source: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<()> {
     while !line.ends_with(b"\n") {
         let piece = source.fill_buf()?;
@@ -254,13 +252,13 @@ fn read_line(source: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<()> {
     Ok(())
 }
 
-/// Whether a line begins as a record does.
+/// Whether a line has the beginning of a record.
 fn is_record(line: &[u8]) -> bool {
     without_mark(line).trim_ascii_start().starts_with(b"{")
 }
 
-/// Whether a line that cannot be read says that it is a scene, or, having lost its beginning, holds what only
-/// a scene does.
+/// Whether an unreadable line declares itself a scene or, without its beginning, contains fields that only
+/// scenes have.
 fn is_scene(line: &[u8]) -> bool {
     let line = String::from_utf8_lossy(line);
     if OF_SCENES.iter().any(|name| line.contains(name)) {

@@ -1,4 +1,4 @@
-//! A card of known reflectance in the place of one panel of a fold.
+//! A card of known reflectance in place of one panel of a fold.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -34,7 +34,7 @@ impl ReferencePanel {
 }
 
 impl Scene {
-    /// Says that a panel is a card of known reflectance.
+    /// Declares a panel to be a card of known reflectance.
     ///
     /// # Errors
     /// [`Error::Field`] if a number is not finite.
@@ -46,7 +46,7 @@ impl Scene {
     /// The card, if a panel is one.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is on a panel that there is not, or its reflectance is not on the scene's
+    /// [`Error::Field`] if it is on a panel that does not exist, or its reflectance is not on the scene's
     /// wavelengths.
     pub fn reference_panel(&self) -> Result<Option<ReferencePanel>> {
         let Some(card) = self.fields.get::<ReferencePanel>("reference_panel")? else { return Ok(None) };

@@ -1,4 +1,4 @@
-//! What is marked in a photograph: where panels, chart and white card are.
+//! Regions marked in a photograph: positions of panels, chart and white card.
 //!
 //! ```json
 //! {"image": "fold.dng", "width": 6000, "height": 4000,
@@ -7,18 +7,18 @@
 //!  "chart":  [[700, 90], [980, 95], [975, 290], [695, 280]],
 //!  "white":  [[700, 400], [800, 400], [800, 480], [700, 480]]}
 //! ```
-//! Corners are `[x, y]` in px from the top left corner of the upright picture: of a panel in the order of
-//! [`PANEL_CORNERS`](crate::image::PANEL_CORNERS), of a chart in that of
-//! [`CHART_CORNERS`](crate::image::CHART_CORNERS), of a white card in any order round it. Panels count from 0
-//! in the order in which the scene has them. All fields may be absent or null.
-//! - `image`: the photograph's file name, with or without its ending and without its folder. A list of
-//!   regions needs it; in a single object it is a remark.
-//! - `confidence`: of corners that `vextract --find` found, the probability that they are right.
-//! - `chart_confidence`: the same of a chart that it found; such a chart is used where it can be.
-//! - `angle_deg`, `angle_sd_deg`: the angle of the fold and its standard deviation, degrees, as
-//!   `vextract --find` found them by its corners; `panel`: width of its panels along the crease and their
-//!   depth, in any unit, if they are not square. `vkernel` reads these.
-//! - `found`: false of a photograph in which it found none, and `reason`, why.
+//! Corners are `[x, y]` in px from the top left corner of the upright picture: for a panel in the order of
+//! [`PANEL_CORNERS`](crate::image::PANEL_CORNERS), for a chart in that of
+//! [`CHART_CORNERS`](crate::image::CHART_CORNERS), for a white card in any order around it. Panels are
+//! numbered from 0 in the order of the scene. All fields may be absent or null.
+//! - `image`: the photograph's file name, with or without its extension and folder. A list of regions
+//!   requires it; in a single object it is a remark.
+//! - `confidence`: for corners from `vextract --find`, the probability that they are right.
+//! - `chart_confidence`: the same for a chart; such a chart is used where possible.
+//! - `angle_deg`, `angle_sd_deg`: the angle of the fold and its standard deviation, degrees, as derived from
+//!   the corners by `vextract --find`; `panel`: width of its panels along the crease and their depth, in any
+//!   unit, if they are not square. `vkernel` reads these.
+//! - `found`: false if no fold was found, and `reason`, why.
 //! - `width`, `height`: size of the picture in which the corners were found, px. On a photograph of the same
 //!   shape but another size, such as the original of a preview, corners are scaled; one of another shape is
 //!   refused.
@@ -35,7 +35,7 @@ use super::{Fields, Sample};
 use crate::error::{Error, Result};
 use crate::image::{Homography, Point};
 
-/// Fields beside those of the panels.
+/// Fields other than those of the panels.
 const FIELDS: [&str; 12] = [
     "chart",
     "white",
@@ -54,7 +54,7 @@ const FIELDS: [&str; 12] = [
 /// Four corners, px of the upright picture.
 pub type Corners = [Point; 4];
 
-/// What is marked in a photograph.
+/// Regions marked in a photograph.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Regions {
     /// Panels by their numbers.
@@ -67,9 +67,9 @@ pub struct Regions {
     pub image: Option<String>,
     /// Width and height of the picture in which the corners were found, px.
     pub size: Option<[usize; 2]>,
-    /// Of panels that were found, the probability that their corners are right, 0 to 1.
+    /// Probability that the corners of detected panels are right, 0 to 1.
     pub confidence: Option<f64>,
-    /// Of a chart that was found, the same.
+    /// The same for a detected chart.
     pub chart_confidence: Option<f64>,
     /// Angle between the panels, degrees, and its standard deviation.
     pub angle_deg: Option<f64>,
@@ -77,7 +77,7 @@ pub struct Regions {
     pub angle_sd_deg: Option<f64>,
     /// Width of the panels along the crease and their depth, in any unit.
     pub panel: Option<[f64; 2]>,
-    /// Why none were found.
+    /// Reason why none were found.
     pub missing: Option<String>,
 }
 
@@ -96,7 +96,7 @@ pub(super) struct RegionsRecord {
 }
 
 impl Regions {
-    /// The regions that the fields of an object say; `path` is its file, for errors.
+    /// The regions in the fields of an object; `path` is its file, for errors.
     pub(super) fn from_fields(path: &str, fields: &Fields) -> Result<Self> {
         let names = || fields.names();
         if let Some(unknown) = names().find(|name| panel_number(name).is_none() && !FIELDS.contains(name)) {
@@ -165,13 +165,13 @@ impl Regions {
         Ok(scaled)
     }
 
-    /// The same regions, those of `others` where they have none.
+    /// The same regions, with those of `others` where absent.
     #[must_use]
     pub fn or(self, others: Self) -> Self {
         let chart_confidence =
             if self.chart.is_some() { self.chart_confidence } else { others.chart_confidence };
         Self {
-            panels: others.panels.into_iter().chain(self.panels).collect(), // the last of a number stays
+            panels: others.panels.into_iter().chain(self.panels).collect(), // the last of equals remains
             chart: self.chart.or(others.chart),
             white: self.white.or(others.white),
             image: self.image.or(others.image),
@@ -187,7 +187,7 @@ impl Regions {
 }
 
 impl Sample {
-    /// Says where the panels are in the picture taken of the sample.
+    /// Records the panels' positions in the picture taken of the sample.
     ///
     /// # Errors
     /// As [`Fields::set`].

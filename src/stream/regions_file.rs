@@ -1,5 +1,5 @@
-//! A file of regions: one object of [`Regions`] for every photograph, a list of them, one per photograph, or
-//! a stream of vforward, whose samples have them in their field `regions`.
+//! A file of regions: one object of [`Regions`] for all photographs, a list with one for each, or a stream of
+//! vforward, whose samples contain them in the field `regions`.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -16,9 +16,9 @@ const EXAMPLE: &str = "{\"panel0\": [[x, y], [x, y], [x, y], [x, y]], ..} or a l
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionsFile {
     path: String,
-    /// One that holds for every photograph, or one per photograph.
+    /// One entry for all photographs, or one for each.
     entries: Vec<Regions>,
-    /// Of a list: which entry is of the photograph of a name.
+    /// For a list: indices of entries by the photograph's name.
     places: Option<HashMap<String, usize>>,
 }
 
@@ -27,7 +27,7 @@ impl RegionsFile {
     ///
     /// # Errors
     /// [`Error::File`] if it cannot be read, [`Error::Record`] with the line if it is no JSON;
-    /// [`Error::Regions`], with the field, if it is not as this module says.
+    /// [`Error::Regions`], with the field, if its form differs from this module's.
     ///
     /// # Example
     /// ```
@@ -63,10 +63,10 @@ impl RegionsFile {
         Ok(Self { path, entries, places })
     }
 
-    /// The regions of the one photograph that the file is about.
+    /// The regions of the only photograph in the file.
     ///
     /// # Errors
-    /// [`Error::Regions`] if there are several.
+    /// [`Error::Regions`] if there are several photographs.
     pub fn only(&self) -> Result<&Regions> {
         match self.entries.as_slice() {
             [only] => Ok(only),
@@ -80,7 +80,7 @@ impl RegionsFile {
     /// The regions of the photograph `image`, scaled to its upright `size`, px.
     ///
     /// # Errors
-    /// [`Error::Regions`] if a list does not name the photograph, or the corners were found in a picture of
+    /// [`Error::Regions`] if a list does not contain the photograph, or the corners belong to a picture of
     /// another shape.
     pub fn of(&self, image: &Path, size: [usize; 2]) -> Result<Regions> {
         let names = [image.file_name(), image.file_stem()];
@@ -97,10 +97,10 @@ impl RegionsFile {
     }
 }
 
-/// Where the entry of each photograph is in a list.
+/// Indices of the photographs' entries in a list.
 ///
 /// # Errors
-/// [`Error::Regions`] unless every entry has a name of its own.
+/// [`Error::Regions`] unless every entry has a different name.
 fn places(path: &str, entries: &[Regions]) -> Result<HashMap<String, usize>> {
     let mut places = HashMap::new();
     for (n, entry) in entries.iter().enumerate() {
@@ -116,7 +116,7 @@ fn places(path: &str, entries: &[Regions]) -> Result<HashMap<String, usize>> {
     Ok(places)
 }
 
-/// The objects in a JSON value: those of a list, the regions of a record, or itself.
+/// The objects in a JSON value: items of a list, the regions of a record, or the value itself.
 fn objects(value: Value) -> Vec<Value> {
     match value {
         Value::Array(objects) => objects,

@@ -1,28 +1,28 @@
-//! The fold that regions show: how far it is open, and the form of its panels.
+//! The angle of the fold in a set of regions, and the form of its panels.
 
 use super::Regions;
 use crate::image::{CornersBy, FoldAngle, FoldSeen};
 
-/// Why corners do not tell the angle of a fold.
+/// Why corners do not determine the angle of a fold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoAngle {
-    /// There are not six.
+    /// There are fewer than six.
     #[error("there are no corners of panel{0}, so that the angle is unknown")]
     NoCorners(usize),
-    /// Where the middle of the picture is is unknown.
+    /// The middle of the picture is unknown.
     #[error("the picture's 'width' and 'height' are missing, without which corners do not fix the angle")]
     NoSize,
-    /// No fold that is open to the camera looks so.
+    /// No fold that opens towards the camera has these corners.
     #[error("no fold that is open to the camera has these corners")]
     NoFold,
 }
 
 impl Regions {
-    /// The angle that the corners tell, whatever is stated beside them, of panels of these depths over their
-    /// width, if that is known.
+    /// The angle derived from the corners, ignoring a stated one, for panels of these depths relative to
+    /// their width, if known.
     ///
     /// # Errors
-    /// [`NoAngle`], if they do not tell it.
+    /// [`NoAngle`] if they do not determine it.
     pub fn angle_by_corners(&self, depths: Option<[f64; 2]>) -> Result<FoldAngle, NoAngle> {
         let corners = |number| self.panels.get(&number).copied().ok_or(NoAngle::NoCorners(number));
         let panels = [corners(0)?, corners(1)?];

@@ -68,7 +68,7 @@ impl ResponseRecord {
         modes.iter().flat_map(|modes| modes.poles.iter().chain(modes.residues.iter().flatten()))
     }
 
-    /// Whether it is made of numbers.
+    /// Checks that all numbers are finite.
     ///
     /// # Errors
     /// [`Error::Field`] if one is not finite.
@@ -105,7 +105,7 @@ impl Scene {
         self.response_of(&self.fold()?)
     }
 
-    /// The same where the fold is known already.
+    /// The same for a known fold.
     ///
     /// # Errors
     /// As [`Scene::response`].
@@ -125,7 +125,7 @@ impl Scene {
         })
     }
 
-    /// Poles and residues of every source around a surface other than a fold.
+    /// Poles and residues for every source around a surface other than a fold.
     ///
     /// # Errors
     /// [`Error::Field`] if they are missing, or do not fit facets and sources.

@@ -1,8 +1,8 @@
-//! `--resume FILE`: what an interrupted run wrote is kept, the rest appended.
+//! `--resume FILE`: keeps what an interrupted run wrote, and appends the rest.
 //!
-//! A run writes what it would write anyway; [`Resumed`] compares the lines that the file has and appends the
-//! others, so that in the end the file is what one run makes. Tools whose work is dear take it from [`Kept`]
-//! instead of doing it again.
+//! A run produces all lines as usual; [`Resumed`] compares those already in the file and appends the others,
+//! so that the file finally equals that of a single run. Expensive tools reuse results from [`Kept`] instead
+//! of recomputing them.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -12,13 +12,13 @@ use super::{Fields, Reader, Record, Sample};
 use crate::error::{Error, Result};
 use crate::files::Claim;
 
-/// How every record begins.
+/// The beginning of every record.
 const BEGINNING: &[u8] = b"{\"kind\":";
 
-/// The records that an interrupted run wrote, one for each that this run is about to make.
+/// The records written by an interrupted run, in the order in which this run produces them.
 pub struct Kept {
     records: Option<Reader>,
-    /// Whether the next good sample is to be made again: nothing else tells what command wrote it.
+    /// Whether the next valid sample must be recomputed, the only test that the same command wrote it.
     is_unknown: bool,
 }
 
@@ -29,13 +29,13 @@ impl Kept {
         Self { records: None, is_unknown: false }
     }
 
-    /// The same, none of its samples to be made again.
+    /// The same, without recomputing any sample.
     #[must_use]
     pub fn all_known(self) -> Self {
         Self { is_unknown: false, ..self }
     }
 
-    /// Passes the record of a scene.
+    /// Skips the record of a scene.
     ///
     /// # Errors
     /// As [`Reader::read`].
@@ -43,7 +43,7 @@ impl Kept {
         self.next().map(drop)
     }
 
-    /// The sample in the next place, if it is there and is that of the input that `is_its` knows.
+    /// The next sample, if present and accepted by `is_its` as the result for the input.
     ///
     /// # Errors
     /// As [`Reader::read`].
@@ -62,14 +62,14 @@ impl Kept {
     }
 }
 
-/// A file that takes the lines it does not have yet.
+/// A file to which missing lines are appended.
 pub struct Resumed {
     file: File,
     path: PathBuf,
-    /// Lines still to be compared.
+    /// Existing lines still to be compared.
     written: BufReader<io::Take<File>>,
     line: usize,
-    /// Bytes in whole lines.
+    /// Bytes in complete lines.
     whole: u64,
     is_cut: bool,
     has_history: bool,
@@ -77,12 +77,12 @@ pub struct Resumed {
 }
 
 impl Resumed {
-    /// Opens a file, or makes it, and keeps other runs out of it; `has_history` says whether its scenes tell
-    /// what made them.
+    /// Opens or creates a file and locks it against other runs; `has_history` is true if its scenes record
+    /// how they were made.
     ///
     /// # Errors
     /// [`Error::Usage`] for standard output, [`Error::File`] if it cannot be read or written,
-    /// [`Error::Record`] if it ends in something else than part of a record.
+    /// [`Error::Record`] if it ends in anything other than part of a record.
     pub fn open(path: &Path, has_history: bool) -> Result<Self> {
         let failed = |e| Error::file(path.display(), e);
         if path == Path::new("-") {
@@ -109,10 +109,10 @@ impl Resumed {
         Ok(Self { file, path, written, line: 0, whole, is_cut: false, has_history, _claim: claim })
     }
 
-    /// What the file has, as records.
+    /// The file's contents as records.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be opened once more.
+    /// [`Error::File`] if it cannot be reopened.
     pub fn kept(&self) -> Result<Kept> {
         let file = File::open(&self.path).map_err(|e| Error::file(self.path.display(), e))?;
         let source = BufReader::new(file.take(self.whole));
@@ -120,10 +120,10 @@ impl Resumed {
         Ok(Kept { records: Some(records), is_unknown: !self.has_history })
     }
 
-    /// Keeps no more than so many lines of what the file has; before any is compared.
+    /// Keeps at most this many lines of the file; to be called before any is compared.
     ///
     /// # Errors
-    /// [`Error::File`] if it cannot be read once more.
+    /// [`Error::File`] if it cannot be reread.
     pub fn keep(&mut self, lines: usize) -> Result<()> {
         let reopened = || File::open(&self.path).map_err(|e| self.failed(e));
         let mut kept = BufReader::new(reopened()?.take(self.whole));
@@ -136,10 +136,10 @@ impl Resumed {
         Ok(())
     }
 
-    /// Compares a line with that in its place, or appends it.
+    /// Compares a line with the existing one, or appends it.
     ///
     /// # Errors
-    /// [`Error::Record`] if the file has another line there, [`Error::File`] if it cannot be read or written.
+    /// [`Error::Record`] if the existing line differs, [`Error::File`] if the file cannot be read or written.
     pub fn write(&mut self, line: &[u8]) -> Result<()> {
         let mut there = Vec::new();
         let read = self.written.read_until(b'\n', &mut there);
@@ -156,7 +156,7 @@ impl Resumed {
         self.file.write_all(line).map_err(|e| self.failed(e))
     }
 
-    /// Cuts off part of a line.
+    /// Removes an incomplete last line.
     fn cut(&mut self) -> Result<()> {
         if !self.is_cut {
             self.file.set_len(self.whole).map_err(|e| self.failed(e))?;
@@ -166,10 +166,10 @@ impl Resumed {
         Ok(())
     }
 
-    /// Makes sure that the file has what was written and nothing else, and that it is on the disk.
+    /// Checks that the file contains nothing but the lines written, and flushes it to disk.
     ///
     /// # Errors
-    /// [`Error::Record`] if it has more, [`Error::File`] if it cannot be read or cut.
+    /// [`Error::Record`] if it has more lines, [`Error::File`] if it cannot be read or truncated.
     pub fn finish(mut self) -> Result<()> {
         match self.written.fill_buf().map_err(|e| Error::file(self.path.display(), e))? {
             [] => self.cut().and_then(|()| self.file.sync_data().map_err(|e| self.failed(e))),
@@ -182,7 +182,7 @@ impl Resumed {
     }
 }
 
-/// How many lines have an end, and their bytes.
+/// Number of complete lines, and their bytes.
 fn whole_lines(file: &File) -> io::Result<(usize, u64)> {
     let (mut reader, mut lines, mut whole, mut read) = (BufReader::new(file), 0, 0, 0);
     loop {
@@ -210,7 +210,7 @@ fn wrong(path: &Path, line: usize, problem: &str) -> Error {
     }
 }
 
-/// What tells two records apart.
+/// Describes the difference between two records.
 fn difference(there: &[u8], made: &[u8]) -> String {
     let fields = |line| serde_json::from_slice::<Fields>(line).ok();
     let (Some(there), Some(made)) = (fields(there), fields(made)) else {

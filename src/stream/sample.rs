@@ -1,4 +1,4 @@
-//! A sample: one sheet's facet RGB, and what the tools make of it. Its fields have files of their own.
+//! A sample: one sheet's facet RGB, and the tools' results. Its fields are in files of their own.
 
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
@@ -8,13 +8,13 @@ use super::fields::{Fields, LARGEST, finite};
 use crate::error::{Error, Result};
 use crate::spectrum::{Outside, Spectrum, WavelengthGrid};
 
-/// What a sample without a name is called.
+/// Name of a sample without a name.
 const UNNAMED: &str = "unnamed";
 
 /// A sample record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
-    /// Its fields, those that the tools do not know included.
+    /// Its fields, including unknown ones.
     pub fields: Fields,
 }
 
@@ -37,7 +37,7 @@ pub struct ReflectanceRecord {
     pub total_radiance_factor: Option<Vec<f64>>,
 }
 
-/// Refuses what cannot be the reflectance in a field.
+/// Rejects impossible reflectances in a field.
 pub(super) fn checked(field: &str, reflectance: &[f64]) -> Result<()> {
     match reflectance.iter().find(|value| !(0.0..=1.0).contains(*value)) {
         Some(value) => Err(Error::field(field, format!("{value:e} is no reflectance; it needs 0 to 1"))),
@@ -45,7 +45,7 @@ pub(super) fn checked(field: &str, reflectance: &[f64]) -> Result<()> {
     }
 }
 
-/// Refuses what cannot be parts of white's light in a field.
+/// Rejects impossible radiance factors in a field.
 pub(super) fn checked_radiance<'a>(field: &str, factors: impl IntoIterator<Item = &'a f64>) -> Result<()> {
     match factors.into_iter().find(|value| !(0.0..=LARGEST).contains(*value)) {
         Some(value) => Err(Error::field(
@@ -70,7 +70,7 @@ impl ReflectanceRecord {
         })
     }
 
-    /// What the sheet sends out of white's light: its reflectance, unless it fluoresces.
+    /// The total radiance factor: the reflectance, unless the sheet fluoresces.
     #[must_use]
     pub fn total_radiance_factor(&self) -> &[f64] {
         self.total_radiance_factor.as_ref().unwrap_or(&self.reflectance)
@@ -78,8 +78,7 @@ impl ReflectanceRecord {
 }
 
 impl Sample {
-    /// The sample's name; a number is one, too. One sample without a name is no reason to stop with all
-    /// others.
+    /// The sample's name, which may also be a number. A missing name must not stop the other samples.
     #[must_use]
     pub fn id(&self) -> String {
         self.fields.text_at("id").ok().flatten().unwrap_or_else(|| UNNAMED.to_owned())
@@ -98,7 +97,7 @@ impl Sample {
     /// The true spectrum, if the sample carries it.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is not a spectrum of numbers from 0 to 1, or what it sends out in all one of
+    /// [`Error::Field`] unless it is a spectrum of numbers from 0 to 1, and its total radiance factor one of
     /// numbers from 0.
     pub fn truth(&self) -> Result<Option<ReflectanceRecord>> {
         let truth: Option<ReflectanceRecord> = self.fields.get("truth")?;
@@ -121,7 +120,7 @@ impl Sample {
         self.fields.set("error", error.to_string())
     }
 
-    /// What went wrong with this sample in an earlier tool, if anything did.
+    /// The error of an earlier tool on this sample, if any.
     ///
     /// # Errors
     /// [`Error::Field`] if `error` is not text.
@@ -129,7 +128,7 @@ impl Sample {
         self.fields.get("error")
     }
 
-    /// A field that is made of the facets; a sample that carries an error has none, whatever an earlier run
+    /// A result computed from the facets; none for a sample that carries an error, whatever an earlier run
     /// left there.
     pub(super) fn made<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>> {
         match self.error()? {

@@ -110,7 +110,7 @@ impl Sample {
         Ok(Self { fields: Fields::of(&SampleRecord { scene, id, ..SampleRecord::default() })? })
     }
 
-    /// Says how many bounces of light the facets' values are made of.
+    /// Records the number of bounces in the facets' values.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.

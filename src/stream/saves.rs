@@ -8,27 +8,28 @@ use serde_json::Value;
 use super::{ArrayStack, Fields};
 use crate::error::Result;
 
-/// Groups of a record in which a field is looked for when the record itself has none of that name.
+/// Groups of a record that are searched for a field that the record itself lacks.
 const GROUPS: [&str; 3] = ["estimate", "metrics", "response"];
 
-/// Fields to save, and where.
+/// Fields to be saved, and their files.
 #[derive(Default)]
 pub struct Saves(Vec<(String, PathBuf, Option<ArrayStack>)>);
 
 impl Saves {
-    /// Fields and files as the command line names them; a dot leads into a group (`estimate.reflectance`).
+    /// Fields and files in the terms of the command line; a dot selects a member of a group
+    /// (`estimate.reflectance`).
     #[must_use]
     pub fn new(requests: &[(String, PathBuf)]) -> Self {
         Self(requests.iter().map(|(field, path)| (field.clone(), path.clone(), None)).collect())
     }
 
-    /// Takes a request out, for a field that a tool writes itself.
+    /// Removes a request for a field that a tool writes itself.
     pub fn take(&mut self, field: &str) -> Option<PathBuf> {
         let position = self.0.iter().position(|(name, ..)| name == field)?;
         Some(self.0.remove(position).1)
     }
 
-    /// Adds what the record has of the fields.
+    /// Adds the requested fields of a record.
     ///
     /// # Errors
     /// As [`ArrayStack::new`] and [`ArrayStack::push`].
@@ -65,7 +66,7 @@ fn find(fields: &Fields, name: &str) -> Option<Value> {
     fields.at(name).or_else(|| GROUPS.iter().find_map(|group| fields.at(&format!("{group}.{name}"))))
 }
 
-/// A number or nested lists of one shape, null as NaN; none for anything else.
+/// A number or nested lists of uniform shape, null as NaN; none for anything else.
 fn numbers(value: &Value) -> Option<ArrayD<f64>> {
     let mut shape = Vec::new();
     measure(value, 0, &mut shape);
@@ -74,7 +75,7 @@ fn numbers(value: &Value) -> Option<ArrayD<f64>> {
     ArrayD::from_shape_vec(shape, values).ok()
 }
 
-/// Extents by depth; a null stands for a list of whatever extent its neighbours have.
+/// Lengths by depth; a null represents a list of the same length as its neighbours.
 fn measure(value: &Value, depth: usize, shape: &mut Vec<usize>) {
     if let Value::Array(items) = value {
         if shape.len() == depth {

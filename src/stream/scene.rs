@@ -1,4 +1,4 @@
-//! A scene: a surface in its light before a camera. Its fields have files of their own.
+//! A scene: a surface, its light and a camera. Its fields are in files of their own.
 
 use super::fields::{BY_VKERNEL, Fields};
 use crate::error::{Error, Result};
@@ -9,7 +9,7 @@ pub(super) const FORMAT: &str = "vfold/1";
 /// A scene record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Its fields, those that the tools do not know included.
+    /// Its fields, including unknown ones.
     pub fields: Fields,
 }
 
@@ -17,7 +17,7 @@ impl Scene {
     /// A scene from its record.
     ///
     /// # Errors
-    /// [`Error::Field`] if its format is not this version's.
+    /// [`Error::Field`] if its format is that of another version.
     pub fn from_fields(fields: Fields) -> Result<Self> {
         match fields.get::<String>("format")? {
             Some(format) if format == FORMAT => Ok(Self { fields }),

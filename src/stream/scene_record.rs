@@ -103,7 +103,7 @@ struct FurtherRecord {
 }
 
 impl Scene {
-    /// The scene of a fold and its light, bounces solved.
+    /// The scene of a fold and its light, with the bounces solved.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.
@@ -119,7 +119,7 @@ impl Scene {
         })
     }
 
-    /// The scene of any surface under `sources`, the bounces of each solved.
+    /// The scene of any surface under `sources`, with the bounces of each solved.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.

@@ -1,4 +1,4 @@
-//! Which scene a sample belongs to.
+//! Finds the scene of a sample.
 
 use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -6,18 +6,18 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use super::{Sample, Scene};
 use crate::error::{Error, Result};
 
-/// A record takes the place of as many as its line has of these bytes.
+/// A record takes as many places as its line has multiples of this many bytes.
 pub(super) const PLACE_BYTES: usize = 1 << 20;
-/// Scenes that samples may name, if none is as large as [`PLACE_BYTES`]; a larger one takes the place of
-/// several.
+/// Number of scenes kept for samples to refer to, if none is larger than [`PLACE_BYTES`]; a larger one takes
+/// several places.
 const PLACES_MAX: usize = 64;
 
 const REMEDY: &str = "put the line of its scene above it";
 
-/// The scene above a sample, and those before that as far as memory goes, each with what a tool keeps of it.
+/// The preceding scene and as many earlier ones as memory allows, each with a tool's data on it.
 ///
-/// A sample names its scene in the field `scene`, and need not stand right below it: records may be grouped
-/// by their kind. One that names none belongs to the scene above it.
+/// A sample names its scene in the field `scene`, and need not follow it immediately: records may be grouped
+/// by kind. A sample that names none belongs to the preceding scene.
 ///
 /// # Example
 /// ```
@@ -39,20 +39,20 @@ const REMEDY: &str = "put the line of its scene above it";
 /// ```
 #[derive(Clone, Debug)]
 pub struct Scenes<T> {
-    /// That above comes last.
+    /// The latest is last.
     above: VecDeque<Above<T>>,
-    /// Rises with every sample: scenes that differ in it have samples between them.
+    /// Incremented with every sample: scenes that differ in it have samples between them.
     run: u64,
     has_forgotten: bool,
 }
 
-/// A scene above a sample.
+/// A preceding scene.
 #[derive(Clone, Debug)]
 struct Above<T> {
     id: Option<String>,
     what: T,
     places: usize,
-    /// Tells it from another scene of its name.
+    /// Distinguishes it from another scene of the same name.
     mark: u64,
     run: u64,
     is_ambiguous: bool,
@@ -65,7 +65,7 @@ impl<T> Default for Scenes<T> {
 }
 
 impl<T> Scenes<T> {
-    /// Takes a scene and what is kept of it. It takes the place of an earlier one of its name.
+    /// Adds a scene and the data on it, replacing an earlier one of the same name.
     pub fn enter(&mut self, scene: &Scene, what: T) {
         let id = scene.fields.text_at("id").ok().flatten();
         let (mut bytes, mut mark) = (0, DefaultHasher::new());
@@ -77,13 +77,13 @@ impl<T> Scenes<T> {
             }
         }
         let (places, mark, run) = (1 + bytes / PLACE_BYTES, mark.finish(), self.run);
-        // one without a name is found only while it is the last
+        // one without a name can be referred to only while it is the last
         if self.above.back().is_some_and(|last| last.id.is_none()) {
             self.above.pop_back();
         }
         let of_its_name = self.above.iter().position(|above| above.id == id && id.is_some());
         let former = of_its_name.and_then(|place| self.above.remove(place));
-        // nothing tells which of the two the samples below them are of
+        // samples below could belong to either of the two
         let is_ambiguous =
             former.is_some_and(|former| former.run == run && (former.mark != mark || former.is_ambiguous));
         self.above.push_back(Above { id, what, places, mark, run, is_ambiguous });
@@ -94,11 +94,10 @@ impl<T> Scenes<T> {
         }
     }
 
-    /// What is kept of a sample's scene; none if no scene came before it.
+    /// The data on a sample's scene; none if no scene precedes it.
     ///
     /// # Errors
-    /// [`Error::Field`] if the sample names another scene than those that are kept, or one of two that have
-    /// the same name.
+    /// [`Error::Field`] if the sample names a scene that is not kept, or one of two with the same name.
     pub fn of(&mut self, sample: &Sample) -> Result<Option<&T>> {
         self.run += 1;
         let Some(last) = self.above.back() else { return Ok(None) };

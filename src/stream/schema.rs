@@ -1,4 +1,4 @@
-//! The form of the stream as JSON Schema, made from the types that write and read it.
+//! The form of the stream as JSON Schema, derived from the types that write and read it.
 
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
@@ -12,11 +12,11 @@ use super::scores::SummaryRecord;
 use super::trace::IterationRecord;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
-/// Names of schemas: of the stream, and, with their kind after it, of its records.
+/// Identifiers of the schemas: of the stream and, with the kind appended, of its records.
 const NAME: &str = "urn:vfold:1";
 
-/// Schema of one line of the stream, indented: those of all kinds of records are in its `$defs` and stand for
-/// themselves as well. A record of another kind is allowed, as the tools pass it on.
+/// Schema of one line of the stream, indented: `$defs` contains those of all kinds of record, which are also
+/// complete by themselves. Other kinds of record are allowed, because the tools pass them on.
 ///
 /// # Example
 /// ```
@@ -46,7 +46,7 @@ pub fn schema() -> String {
     format!("{schema:#}")
 }
 
-/// The schema of every kind of record, in the order in which one meets them.
+/// The schema of every kind of record, in the order of the stream.
 pub(super) fn records() -> Vec<(String, Value)> {
     vec![
         of::<SceneRecord>(),
@@ -57,7 +57,7 @@ pub(super) fn records() -> Vec<(String, Value)> {
     ]
 }
 
-/// The schema of a kind of record, as the tools write it. Its first field, which serde adds, is its kind.
+/// The schema of a kind of record, as written by the tools. Its first field, added by serde, is its kind.
 fn of<T: JsonSchema>() -> (String, Value) {
     let settings =
         SchemaSettings::draft2020_12().for_serialize().with_transform(RecursiveTransform(no_default));
@@ -75,7 +75,7 @@ fn of<T: JsonSchema>() -> (String, Value) {
     (kind, schema.to_value())
 }
 
-/// What is written and not read has no default.
+/// Fields that are written but not read have no default.
 fn no_default(schema: &mut Schema) {
     if schema.get("readOnly").is_some() {
         schema.remove("default");

@@ -92,11 +92,11 @@ impl From<&Summary> for CountsRecord {
     }
 }
 
-/// The record that ends a scored stream: how many samples, and the mean, median and worst of each score; the
-/// same of each group of samples that share the value of a field, if they are grouped `by` one.
+/// The record that ends a scored stream: number of samples, and mean, median and worst of each score; the
+/// same for each group of samples with equal values of a field, if grouped `by` one.
 ///
 /// # Errors
-/// [`crate::Error::Field`] if it has no form in JSON.
+/// [`crate::Error::Field`] if it cannot be written as JSON.
 pub fn summary(all: &Summary, by: Option<(&str, &[Group])>) -> Result<Fields> {
     let group =
         |Group { value, summary }: &Group| GroupRecord { value: value.clone(), summary: summary.into() };
@@ -118,7 +118,7 @@ impl Sample {
         self.fields.set("metrics", Named(named.collect()))
     }
 
-    /// The sample's scores, if it has any; one that carries an error has none.
+    /// The sample's scores, if any; none for a sample that carries an error.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if they are not numbers.
@@ -128,8 +128,8 @@ impl Sample {
         Ok(metrics.map(|Named(metrics)| metrics.into_iter().map(score).collect()))
     }
 
-    /// Adds the colour of the estimate, under the illuminant of this name, and its standard deviations;
-    /// `exact` if they come from a covariance, else they are the largest possible.
+    /// Adds the colour of the estimate under the illuminant of this name, with its standard deviations, which
+    /// are `exact` if they come from a covariance, else upper bounds.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a number is not finite.

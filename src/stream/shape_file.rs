@@ -1,11 +1,11 @@
-//! Surfaces in files: OBJ and PLY, and JSON for what other programs make.
+//! Surfaces in files: OBJ, PLY, and JSON for the output of other programs.
 //!
 //! ```json
 //! {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "facets": [[0, 1, 2, 3]],
 //!  "groups": [{"name": "floor", "facets": [0, 1]}], "two_sided": false}
 //! ```
-//! Facets are lists of three or four vertices, counted from 0, counter-clockwise seen from the reflecting
-//! side; a group has its first facet and their number. Groups and `two_sided` may be absent.
+//! Facets are lists of three or four vertex indices, from 0, counter-clockwise seen from the reflecting side;
+//! a group has its first facet and their number. Groups and `two_sided` may be absent.
 
 use std::path::Path;
 
@@ -35,14 +35,14 @@ struct GroupRecord {
     facets: [usize; 2],
 }
 
-/// Reads a surface from a file whose name ends in `.obj`, `.ply` or `.json`.
+/// Reads a surface from a `.obj`, `.ply` or `.json` file.
 ///
 /// # Returns
 /// As [`Shape::new`].
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be read, [`Error::Shape`] or [`Error::Record`] with its name if it holds no
-/// surface.
+/// [`Error::File`] if it cannot be read, [`Error::Shape`] or [`Error::Record`] with its name if it contains
+/// no surface.
 ///
 /// # Example
 /// ```

@@ -1,4 +1,4 @@
-//! What of a scene need not be computed.
+//! Parts of a scene that need not be computed.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -34,8 +34,8 @@ impl Scene {
         Ok(self.fields.get("skipped")?.unwrap_or_default())
     }
 
-    /// Says that `count` of what the scene has need not be computed, and why, in place of what was said of it
-    /// before.
+    /// Records that `count` items of `what` need not be computed, and why, replacing an earlier entry on
+    /// them.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if `skipped` is not a list.

@@ -1,4 +1,4 @@
-//! The scene's geometry: any surface, as a mesh or as nothing but its kernel.
+//! The scene's geometry: any surface, as a mesh or by its kernel alone.
 
 use super::Scene;
 use super::facets::{FacetsRecord, ListRecord};
@@ -7,16 +7,16 @@ use crate::error::{Error, Result};
 use crate::geometry::Fold;
 use crate::surfaces::{Group, Shape};
 
-/// A surface around which there are sources of light.
+/// A surface surrounded by light sources.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surface {
     /// Two panels that meet at a crease.
     Fold(Fold),
     /// Flat facets in space.
     Mesh(Shape),
-    /// So many facets of which nothing is known but their kernel.
+    /// Facets known only by their kernel.
     Kernel {
-        /// How many.
+        /// Their number.
         facets: usize,
     },
 }
@@ -48,7 +48,7 @@ impl Scene {
     /// The surface in space.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is no possible mesh or fold, or nothing but its kernel is known.
+    /// [`Error::Field`] if it is not a possible mesh or fold, or only its kernel is known.
     pub fn shape(&self) -> Result<Shape> {
         if let Some(fold) = self.fold_if_one()? {
             return fold.shape().map_err(|e| Error::field("geometry", e));

@@ -1,4 +1,4 @@
-//! Passing records through a tool that takes some samples together.
+//! Passes records through a tool that processes some samples jointly.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -8,57 +8,57 @@ use super::{Kept, Reader, Record, Sample, Scenes};
 use crate::error::Result;
 use crate::parallel::{Item, in_order};
 
-/// A sample with what it needs of the scene above it.
+/// A sample with the context of its scene.
 pub struct Member<C> {
-    /// Of the scene.
+    /// From the scene.
     pub context: Arc<C>,
     /// The sample.
     pub sample: Sample,
 }
 
-/// A tool that can take samples together.
+/// A tool that can process samples jointly.
 pub trait Together: Transform {
-    /// Takes two samples or more that belong together, and adds to each; what is made beside them, one for
+    /// Receives two or more samples that belong together, and adds to each; returns one additional result for
     /// each.
     ///
     /// # Errors
-    /// Any: all of them go out with it in their `error` field, and the run goes on.
+    /// Any: all of them are written with it in their `error` field, and the run continues.
     fn samples(&self, members: &mut [Member<Self::Context>]) -> Result<Vec<Self::Aside>>;
 
-    /// Whether samples, each of which is [made](Transform::is_made), were taken together by an interrupted
-    /// run, and no other with them.
+    /// Whether samples, each of which is [made](Transform::is_made), were processed jointly by an interrupted
+    /// run, without any others.
     fn are_made(&self, together: &[Sample]) -> bool;
 }
 
-/// Samples that belong together, each with what an interrupted run made of it.
+/// Samples that belong together, each with an interrupted run's result.
 struct Group<C> {
     members: Vec<Member<C>>,
     kept: Vec<Option<Sample>>,
 }
 
-/// Where a record stands once it is read.
+/// The position of a record in the stream.
 enum Place {
     Record(Record),
-    /// The next member of that group.
+    /// The next member of this group.
     Member(usize),
 }
 
-/// All records in their places, and the groups in the order of their first members.
+/// All records in order, and the groups in the order of their first members.
 struct Stream<C> {
     places: Vec<Place>,
     groups: Vec<Group<C>>,
 }
 
-/// What is made of a group, or what it is to be made of.
+/// A group's results, or the input for them.
 type Task<T> = Item<Vec<Member<<T as Transform>::Context>>, Result<Vec<Made<<T as Transform>::Aside>>>>;
 
-/// Passes all records of `reader` through `transform`, samples of one `group` together, wherever they stand
-/// in the stream: all are read before the first is written, and each is written as soon as it and those
-/// before it are made. A sample of no group, and one that is alone in its own, passes as through
-/// [`super::pipe`]. Groups that `kept` has are not made again.
+/// Passes all records of `reader` through `transform`, samples of one `group` jointly, wherever they are in
+/// the stream: all are read before the first is written, and each is written as soon as it and its
+/// predecessors are ready. A sample without a group, or alone in one, passes as through [`super::pipe`].
+/// Groups in `kept` are not recomputed.
 ///
 /// # Errors
-/// From the stream itself, from a scene or from `group`; samples carry their own.
+/// From the stream, from a scene or from `group`; samples carry their own.
 pub fn pipe_together<T: Together + Sync>(
     reader: &mut Reader,
     transform: &T,

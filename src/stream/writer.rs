@@ -1,4 +1,4 @@
-//! Writing records: whole files or none.
+//! Writes records: complete files or none.
 
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -10,8 +10,8 @@ use crate::error::{Error, Result};
 use crate::files::Saved;
 use crate::progress::Progress;
 
-/// Where a tool's records go: standard output, a file that appears when it is whole, or one that grows line
-/// by line.
+/// Destination of a tool's records: standard output, a file that appears when it is complete, or one that
+/// grows line by line.
 pub struct Output {
     sink: Sink,
     /// Fields that are also written as arrays.
@@ -39,9 +39,8 @@ impl Output {
         Ok(Self::into(sink, saves))
     }
 
-    /// The file of an interrupted run, or a new one: records that it has are compared, others appended.
-    /// Without a history in its scenes, one of the samples that it has is made again to tell another
-    /// command's file.
+    /// The file of an interrupted run, or a new one: existing records are compared, others appended. If its
+    /// scenes have no history, one existing sample is recomputed to detect another command's file.
     ///
     /// # Errors
     /// [`Error::Usage`] for standard output, [`Error::File`] for a folder or a file that another run is
@@ -54,7 +53,7 @@ impl Output {
         Self { sink, saves: Saves::new(saves), progress: None, failures: Failures::default() }
     }
 
-    /// The records of the interrupted run, none if there was none.
+    /// The records of the interrupted run, if any.
     ///
     /// # Errors
     /// [`Error::File`] if they cannot be read.
@@ -65,7 +64,7 @@ impl Output {
         }
     }
 
-    /// Keeps no more than the first records of the interrupted run; before any is written.
+    /// Keeps at most the first records of the interrupted run; to be called before any is written.
     ///
     /// # Errors
     /// [`Error::File`] if they cannot be read.
@@ -76,12 +75,12 @@ impl Output {
         }
     }
 
-    /// Shows how many samples have been written.
+    /// Shows the number of samples written.
     pub fn show(&mut self, progress: Progress) {
         self.progress = Some(progress);
     }
 
-    /// Says how many samples will be written, where that is known.
+    /// Announces the number of samples to be written, if known.
     pub fn expect(&mut self, samples: usize) {
         if let Some(progress) = &mut self.progress {
             progress.expect(samples);
@@ -108,11 +107,11 @@ impl Output {
         self.fields(&sample.fields)
     }
 
-    /// Writes the fields of a record. A reader gets them at once: the next may be long in coming.
+    /// Writes the fields of a record, flushed at once because the next may take long.
     ///
     /// # Errors
     /// [`Error::Output`] or [`Error::File`] if it cannot be written, [`Error::Record`] if a resumed file has
-    /// another in its place.
+    /// another record in its place.
     pub fn fields(&mut self, fields: &Fields) -> Result<()> {
         self.saves.record(fields)?;
         let mut line = serde_json::to_vec(fields).map_err(|e| Error::field(fields.kind(), e))?;
@@ -144,7 +143,7 @@ impl Output {
         self.bytes(format!("{line}\n").as_bytes())
     }
 
-    /// Writes a line of plain text about a sample, which counts as the sample does.
+    /// Writes a line of plain text for a sample, which counts as the sample does.
     ///
     /// # Errors
     /// As [`Output::fields`].
@@ -163,9 +162,9 @@ impl Output {
         }
     }
 
-    /// Makes all that was written last, and tells which samples failed: flushes, and gives files their names.
-    /// Only once every record is written, so that a full disk does not leave arrays of records that are
-    /// nowhere.
+    /// Completes all output and returns the failed samples: flushes, and renames files. To be called only
+    /// once every record is written, so that a full disk does not leave arrays of records that were not
+    /// written.
     ///
     /// # Errors
     /// [`Error::Output`] or [`Error::File`] if the rest cannot be written.

@@ -1,4 +1,4 @@
-//! Folds of several creases, and panels that are curved like the pages of an open book.
+//! Folds with several creases, and panels curved like the pages of an open book.
 
 use super::{Group, Shape};
 use crate::error::{Error, Result};
@@ -7,7 +7,7 @@ use crate::geometry::{FacetGrid, Fold};
 /// Most creases.
 const CREASES_MAX: usize = 1000;
 
-/// A sheet creased several times, valley and ridge in turn, each panel flat or bent.
+/// A sheet creased several times, valleys and ridges alternating, with flat or curved panels.
 ///
 /// The V of [`Fold`] is the accordion of one crease.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,21 +17,20 @@ pub struct Accordion {
     pub valley: Fold,
     /// Number of creases, one less than panels.
     pub creases: usize,
-    /// Angle between two panels at a ridge on the reflecting side's back, degrees in (0, 180].
+    /// Angle between two panels at a ridge, on the back of the reflecting side, degrees in (0, 180].
     pub ridge_deg: f64,
-    /// By how much a panel turns away from the other, from its valley to its other end, along an arc of a
-    /// circle, degrees in (−180, 180); negative makes a trough.
+    /// Angle by which a panel turns away from the other between its valley and its other end, along a
+    /// circular arc, degrees in (−180, 180); negative values make a trough.
     pub bow_deg: f64,
 }
 
 impl Accordion {
-    /// The surface. Panels are groups `panel 0`, … from left to right; facets go by panel, then by row from
-    /// the valley outwards, then by column along y. Valleys open towards z; a bent panel is one flat strip
-    /// per row.
+    /// The surface. Panels are groups `panel 0`, … from left to right; facets are ordered by panel, then by
+    /// row outwards from the valley, then by column along y. Valleys open towards z; a curved panel has one
+    /// flat strip per row.
     ///
     /// # Errors
-    /// No crease or too many, an angle out of its range, too many facets, or panels that pass through each
-    /// other.
+    /// No crease or too many, an angle out of range, too many facets, or panels that intersect.
     ///
     /// # Example
     /// ```
@@ -94,7 +93,7 @@ impl Accordion {
         Ok(())
     }
 
-    /// Points (x, z) where the rows of every panel begin and end, from the valley outwards.
+    /// Points (x, z) at the boundaries of the rows of every panel, outwards from the valley.
     fn profiles(&self) -> Vec<Vec<[f64; 2]>> {
         let (mut at, mut heading) = ([0.0; 2], 0.0);
         let mut profiles = Vec::new();
@@ -112,15 +111,15 @@ impl Accordion {
         profiles
     }
 
-    /// The rows of a panel as met from left to right: down to the valley on even panels, up from it on odd
-    /// ones. Ends where the panel ends.
+    /// The rows of a panel from left to right: down to the valley on even panels, up from it on odd ones.
+    /// Returns its boundaries and moves to the panel's end.
     fn walk(&self, panel: usize, at: &mut [f64; 2], heading: &mut f64) -> Vec<[f64; 2]> {
         let mut edges = self.valley.row_edges()[panel % 2].clone();
         let depth = edges[edges.len() - 1];
         if panel.is_multiple_of(2) {
             edges = edges.iter().rev().map(|edge| depth - edge).collect();
         }
-        // Seen from the left, pages turn right before the valley as after it.
+        // seen from the left, pages turn right both before and after the valley
         let turn = -self.bow_deg.to_radians() / depth;
         let mut profile = vec![*at];
         for row in edges.windows(2) {
@@ -136,7 +135,7 @@ impl Accordion {
     }
 }
 
-/// The first two panels that pass through each other, if any do. To touch is allowed.
+/// The first two panels that intersect, if any. Touching is allowed.
 fn crossing(profiles: &[Vec<[f64; 2]>]) -> Option<[usize; 2]> {
     let extents: Vec<[[f64; 2]; 2]> = profiles.iter().map(|profile| extent(profile)).collect();
     let apart = |a: usize, b: usize| {
@@ -159,7 +158,7 @@ fn extent(profile: &[[f64; 2]]) -> [[f64; 2]; 2] {
     ]
 }
 
-/// Whether each strip has its two ends on different sides of the other.
+/// Whether each strip has its ends on different sides of the other.
 fn strips_cross(one: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
     let side = |line: &[[f64; 2]], point: [f64; 2]| {
         let [along, to] = [line[1], point].map(|end| [end[0] - line[0][0], end[1] - line[0][1]]);
@@ -169,8 +168,8 @@ fn strips_cross(one: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
     parted(one, other) && parted(other, one)
 }
 
-/// Turns the profile so that both its ends, the origin and `end`, lie equally high, and puts the middle
-/// between them and the lowest point at 0.
+/// Rotates the profile so that its ends, the origin and `end`, are at equal height, and moves the midpoint
+/// between them and the lowest point to 0.
 fn level(profiles: &mut [Vec<[f64; 2]>], end: [f64; 2]) {
     let length = end[0].hypot(end[1]);
     let (cos, sin) = (end[0] / length, end[1] / length);
@@ -218,19 +217,18 @@ mod tests {
     fn panels_do_not_pass_through_each_other() {
         let valley = Fold::new(20.0, 1.0, 1.0, FacetGrid { rows: 3, cols: 2 }).unwrap();
         let shape = |creases, ridge_deg, bow_deg| Accordion { valley, creases, ridge_deg, bow_deg }.shape();
-        // Half of the bow is by how much the chord of either panel leans over: a trough closes where it is
-        // half of the angle.
+        // each panel's chord leans by half the bow: a trough closes when this reaches half the angle
         assert!(shape(1, 90.0, -19.0).is_ok());
         let closed = shape(1, 90.0, -21.0).unwrap_err().to_string();
         assert!(closed.starts_with("--bow-deg: panels 0 and 1 pass through"), "{closed}");
-        // Under a ridge it is the open book that closes.
+        // at a ridge it is the open book that closes
         assert!(shape(2, 30.0, 29.0).is_ok());
         assert!(shape(2, 30.0, 31.0).unwrap_err().to_string().contains("and 2 pass through"));
         assert!(shape(40, 20.0, 0.0).is_ok());
         assert!(shape(40, 40.0, 0.0).unwrap_err().to_string().starts_with("--ridge-deg: panels"));
     }
 
-    /// The pages of a book leave the gutter steeply and then flatten out: both ends lie lower than those of a
+    /// The pages of a book leave the gutter steeply and then flatten out: both ends are lower than those of a
     /// flat V.
     #[test]
     fn a_positive_bow_is_an_open_book() {

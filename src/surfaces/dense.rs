@@ -1,4 +1,4 @@
-//! The exchange of light between the patches of any surface, all form factors at hand.
+//! The exchange of light between the patches of any surface, with all form factors in memory.
 
 use nalgebra::{DMatrix, DVectorView, DVectorViewMut};
 
@@ -13,7 +13,7 @@ pub struct DenseExchange {
 }
 
 impl DenseExchange {
-    /// From K of eq. (10) between patches of these `areas`, each in the facet that `facet_of` says:
+    /// From K of eq. (10) between patches of these `areas`, each in the facet stated by `facet_of`:
     /// `areaᵢ·kernelᵢⱼ = areaⱼ·kernelⱼᵢ`, which makes `√A·K·√A⁻¹` symmetric.
     ///
     /// # Example
@@ -31,8 +31,7 @@ impl DenseExchange {
         let root_areas: Vec<f64> = areas.iter().map(|area| area.sqrt()).collect();
         let scaled = |i: usize, j: usize| root_areas[i] * kernel[(i, j)] / root_areas[j];
         let count = areas.len();
-        // Rounding, and what is left of noise in K, must not break the symmetry that Lanczos' method relies
-        // on.
+        // rounding, and residual noise in K, must not break the symmetry on which the Lanczos method relies
         let symmetric = DMatrix::from_fn(count, count, |i, j| 0.5 * (scaled(i, j) + scaled(j, i)));
         Self { symmetric, root_areas, facet_of }
     }

@@ -1,18 +1,19 @@
-//! What the bounces on any surface need from a discretisation.
+//! Requirements of the bounces on any surface for a discretisation.
 
 /// The exchange of light between the patches of a surface.
 ///
-/// Vectors hold one number per patch, in coordinates in which the exchange is symmetric: the root of the
-/// patch's area times its irradiance. Patches are where the bounces are solved; every one lies in a facet,
-/// where colour is measured.
+/// Vectors hold one number per patch, in coordinates in which the exchange is symmetric: the square root of
+/// the patch's area times its irradiance. The bounces are solved on patches; each lies in one facet, where
+/// colour is measured.
 pub trait Exchange: Sync {
-    /// Root of the area of every patch, in any unit, positive.
+    /// Square root of the area of every patch, in any unit, positive.
     fn root_areas(&self) -> &[f64];
 
-    /// The facet in which every patch lies, counted from 0; none is without a patch.
+    /// The facet of every patch, counted from 0; each facet has at least one patch.
     fn facet_of(&self) -> &[usize];
 
-    /// `out = S·x`, `S = √A·K·√A⁻¹`: what the patches receive of the exitance `x`, with K of eq. (10).
+    /// `out = S·x`, `S = √A·K·√A⁻¹`: the light that patches receive from the exitance `x`, with K of
+    /// eq. (10).
     fn apply(&self, x: &[f64], out: &mut [f64]);
 
     /// Number of patches.

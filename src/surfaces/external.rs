@@ -1,21 +1,21 @@
-//! A kernel that was made elsewhere: what it must be, and the areas that follow from it.
+//! A kernel made elsewhere: its requirements, and the areas derived from it.
 
 use nalgebra::DMatrix;
 
 use super::dense::DenseExchange;
 use crate::error::{Error, Result};
 
-/// How far from reciprocal a kernel may be, in shares of a facet's light.
+/// Largest deviation of a kernel from reciprocity, relative to a facet's light.
 const RECIPROCITY: f64 = 1e-6;
 
 impl DenseExchange {
-    /// From K of eq. (10) between facets, one patch each: entry ij is the share of the light of facet i that
-    /// reaches facet j. Areas, in any unit, follow from the kernel where they are not given.
+    /// From K of eq. (10) between facets, one patch each: entry ij is the fraction of the light of facet i
+    /// that reaches facet j. Areas, in any unit, are derived from the kernel unless stated.
     ///
     /// # Errors
-    /// [`Error::Field`] for an entry that cannot be a share, a facet that hands on all its light or more, an
-    /// area that is not positive, or where `areaᵢ·kernelᵢⱼ = areaⱼ·kernelⱼᵢ` does not hold within a share of
-    /// 1e-6.
+    /// [`Error::Field`] for an entry that is not a valid fraction, a facet that passes on all its light or
+    /// more, an area that is not positive, or a deviation from `areaᵢ·kernelᵢⱼ = areaⱼ·kernelⱼᵢ` by more than
+    /// 1e-6 of a facet's light.
     ///
     /// # Example
     /// ```
@@ -68,15 +68,14 @@ fn check_reciprocity(kernel: &DMatrix<f64>, areas: &[f64]) -> Result<()> {
     Ok(())
 }
 
-/// Areas relative to the first facet of each set of facets that see each other.
+/// Areas relative to the first facet of each set of mutually visible facets.
 ///
-/// Each follows from the facet already known with which it exchanges most, as in Prim's minimum spanning
-/// tree.
+/// Each is derived from the known facet with which it exchanges most, as in Prim's minimum spanning tree.
 fn areas_of(kernel: &DMatrix<f64>) -> Vec<f64> {
     let count = kernel.nrows();
     let both = |i: usize, j: usize| kernel[(i, j)].min(kernel[(j, i)]);
     let mut areas = vec![0.0; count];
-    // For a facet still unknown: how much it exchanges with a known one, and that one.
+    // for each unknown facet, its largest exchange with a known one, and that facet
     let mut best: Vec<(f64, usize)> = (0..count).map(|facet| (0.0, facet)).collect();
     let mut unknown: Vec<usize> = (0..count).collect();
     while let Some((n, facet)) =

@@ -1,4 +1,4 @@
-//! What makes a list of corners a facet, and which faces are one.
+//! Conditions for a list of corners to be a facet, and for faces to be equal.
 
 use std::collections::HashMap;
 
@@ -6,12 +6,12 @@ use super::polygon::Polygon;
 use crate::error::{Error, Result};
 use crate::geometry::Vec3;
 
-/// How far from flat a quadrilateral may be, relative to its longer diagonal.
+/// Largest deviation of a quadrilateral from a plane, relative to its longer diagonal.
 const UNEVEN: f64 = 1e-4;
-/// Facets that are narrower than this, relative to their length, have no side to speak of.
+/// Facets narrower than this, relative to their length, are degenerate.
 const DEGENERATE: f64 = 1e-9;
 
-/// The face as a polygon, if its corners exist and lie in a plane.
+/// The face as a polygon, if its corners exist and are coplanar.
 pub(super) fn flat(vertices: &[[f64; 3]], corners: &[usize], n: usize) -> Result<Polygon> {
     if !(3..=4).contains(&corners.len()) {
         let problem = format!("face {n} has {} corners", corners.len());
@@ -35,7 +35,7 @@ pub(super) fn flat(vertices: &[[f64; 3]], corners: &[usize], n: usize) -> Result
     Ok(polygon)
 }
 
-/// Whether it has no area to speak of.
+/// Whether its area is negligible.
 pub(super) fn is_degenerate(polygon: &Polygon) -> bool {
     let length = polygon.diameter();
     polygon.area().is_nan() || polygon.area() <= DEGENERATE * length * length
@@ -55,14 +55,14 @@ pub(super) fn convex(polygon: &Polygon, n: usize) -> Result<()> {
     Ok(())
 }
 
-/// Bits of a point, 0 and −0 alike.
+/// Bits of a point, with −0 replaced by 0.
 pub(super) type Bits = [u64; 3];
 
 fn bits(point: &Vec3) -> Bits {
     [point.x, point.y, point.z].map(|x| (x + 0.0).to_bits())
 }
 
-/// Corners in cyclic order from the smallest, so that a face given twice is known.
+/// Corners in cyclic order from the smallest, which identifies duplicate faces.
 pub(super) fn canonical(polygon: &Polygon) -> Vec<Bits> {
     let mut corners: Vec<Bits> = polygon.corners().iter().map(bits).collect();
     let first = corners.iter().enumerate().min_by_key(|(_, corner)| **corner).map_or(0, |(n, _)| n);
@@ -70,7 +70,7 @@ pub(super) fn canonical(polygon: &Polygon) -> Vec<Bits> {
     corners
 }
 
-/// A line for the edges that more than two faces share: where surfaces meet or cross.
+/// A message on edges that more than two faces share: where surfaces meet or cross.
 pub(super) fn crowded_edges<'a>(facets: impl Iterator<Item = &'a Polygon>) -> Option<String> {
     let mut faces = HashMap::<[Bits; 2], usize>::new();
     for facet in facets {

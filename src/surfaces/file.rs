@@ -1,4 +1,4 @@
-//! Files of surfaces: no more of one is read than a surface that can be computed has.
+//! Files of surfaces, limited to the size of a surface that can be computed.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Take};
@@ -6,10 +6,10 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 
-/// 22000 facets take a quarter of it; parsed, a byte may take hundreds.
+/// 22000 facets take a quarter of it; parsing may take hundreds of bytes per byte.
 const MAX_BYTES: u64 = 16 << 20;
 
-/// Opens a file of a surface; of anything but a regular file it gives the first bytes.
+/// Opens the file of a surface; of anything but a regular file, only the first bytes are read.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be opened, [`Error::Shape`] if it is too large.

@@ -1,11 +1,11 @@
-//! A fold as any other surface, for light that it has no formulas for.
+//! A fold as a general surface, for light without closed formulas.
 
 use super::{Group, Shape};
 use crate::error::Result;
 use crate::geometry::{FacetGrid, Fold};
 
 impl Fold {
-    /// The fold as a surface in space, where [`Fold::panels`] has it, with groups `panel 0` and `panel 1`.
+    /// The fold as a surface in space, as in [`Fold::panels`], with groups `panel 0` and `panel 1`.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if its sides are too large or too small for a surface.

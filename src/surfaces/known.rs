@@ -1,8 +1,8 @@
-//! Light on a surface of which some parts are of known reflectance, in one waveband.
+//! Light on a surface with some parts of known reflectance, in one waveband.
 //!
-//! With R the known reflectances and x = rE the exitance of the unknown parts, the known ones receive
-//! `E_k = (I − T_kk·R)⁻¹(b_k + T_ku·x)`: so they drop out of eq. (24), and an exchange and a light are left
-//! for the unknown parts alone, with their own poles.
+//! With R the known reflectances and x = rE the exitance of the unknown parts, the known ones receive `E_k =
+//! (I − T_kk·R)⁻¹(b_k + T_ku·x)`. Eliminating them from eq. (24) leaves an exchange and a light for the
+//! unknown parts alone, with their own poles.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,22 +11,22 @@ use crate::error::{Error, Result};
 use crate::response::{Excited, ModeSet};
 use crate::solve::dot;
 
-/// What one light becomes: facets of reflectance r send out `known + Σ_k r·residue_k/(1 − r·pole_k)`, those
-/// of known reflectance as well.
+/// The result for one light: facets of reflectance r emit `known + Σ_k r·residue_k/(1 − r·pole_k)`, as do
+/// those of known reflectance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WithKnown {
-    /// Radiance of every facet times π, were the unknown parts black.
+    /// Radiance of every facet times π, if the unknown parts were black.
     pub known: DVector<f64>,
     /// Modes of the unknown parts; residues are exitances of all facets.
     pub modes: ModeSet,
 }
 
 impl ReducedExchange {
-    /// Poles and residues of every light in a waveband, parts having these `reflectances`, in [0, 1], and
-    /// none where it is unknown.
+    /// Poles and residues for every light in a waveband, with these `reflectances` of the parts, in [0, 1],
+    /// and none where unknown.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if light does not leave the surface.
+    /// [`Error::Numeric`] if no light escapes the surface.
     ///
     /// # Source
     /// Deeb et al., eq. (24).
@@ -54,7 +54,7 @@ impl ReducedExchange {
             let returned = from_known.select_rows(&known) * DMatrix::from_diagonal(&r);
             (DMatrix::identity(r.len(), r.len()) - returned).lu()
         };
-        // Where no light comes to known parts there is nothing to solve: a decomposition needs a row.
+        // if no light reaches known parts there is nothing to solve: a decomposition needs a row
         let system = (!known.is_empty()).then(system);
         let solve = |right: DMatrix<f64>| {
             let Some(system) = &system else { return Ok(right) };
@@ -62,7 +62,7 @@ impl ReducedExchange {
                 Error::Numeric("the known parts keep all light that they receive: open them".to_owned())
             })
         };
-        // Exitances of the known parts: of their own light, and of a unit of each unknown function.
+        // exitances of the known parts: in direct light, and for one unit of each unknown function
         let own = solve(self.lights.select_rows(&known))?;
         let returned = solve(from_unknown.select_rows(&known))?;
         let to_unknown = from_known.select_rows(&unknown);
@@ -79,7 +79,7 @@ impl ReducedExchange {
     }
 }
 
-/// Modes of what is left of the exchange; none if no light comes to it.
+/// Modes of the remaining exchange; none if it receives no light.
 fn modes(
     exchange: &DMatrix<f64>,
     light: DVector<f64>,

@@ -1,19 +1,19 @@
-//! Flat parts of a surface as few large polygons: what casts shadows need not be divided as what is measured.
+//! Flat parts of a surface as a few large polygons: shadows do not require the division into facets.
 
 use std::collections::HashMap;
 
 use super::polygon::{Corners, Polygon, edges};
 use crate::geometry::Vec3;
 
-/// Sine of an angle, and share of a length, below which it counts as zero.
+/// Sine of an angle, and relative length, below which it counts as zero.
 const NONE: f64 = 1e-9;
 /// Most corners of a merged polygon.
 const CORNERS_MAX: usize = 6;
 
-/// The same surface with neighbours in one plane joined along whole edges, where the result is convex.
+/// The same surface with coplanar neighbours joined along entire edges, where the result is convex.
 ///
 /// Edges are tried one after the other in the order of corners, so that a grid of facets becomes strips, and
-/// strips one polygon.
+/// the strips become one polygon.
 ///
 /// # Example
 /// ```
@@ -46,7 +46,7 @@ fn key(point: &Vec3) -> Key {
     [point.x, point.y, point.z].map(|x| (x + 0.0).to_bits())
 }
 
-/// One pass: each polygon takes in at most one neighbour across its side number `edge`; none if no one does.
+/// One pass: each polygon absorbs at most one neighbour across its side number `edge`; none if none does.
 fn joined_along(edge: usize, all: &[Polygon]) -> Option<Vec<Polygon>> {
     let mut beyond = HashMap::new();
     for (n, polygon) in all.iter().enumerate() {
@@ -75,14 +75,14 @@ fn joined_along(edge: usize, all: &[Polygon]) -> Option<Vec<Polygon>> {
     )
 }
 
-/// `a` with `b` beyond its side number `edge`, which ends in `to`, if both lie in a plane and the result is
-/// convex.
+/// `a` joined with `b` beyond its side number `edge`, which ends in `to`, if both are coplanar and the result
+/// is convex.
 fn join(a: &Polygon, edge: usize, b: &Polygon, to: &Vec3) -> Option<Polygon> {
     if a.normal().cross(&b.normal()).norm() > NONE || a.normal().dot(&b.normal()) < 0.0 {
         return None;
     }
     let first = b.corners().iter().position(|corner| key(corner) == key(to))?;
-    // b has the side from `to` back: what follows it, up to `to` again, is new.
+    // b traverses this side backwards from `to`: its remaining corners are new
     let others = b.corners().len();
     let new = (2..others).map(|step| b.corners()[(first + step) % others]);
     let mut corners: Vec<Vec3> = a.corners()[..=edge].to_vec();
@@ -106,7 +106,7 @@ fn turning(corners: &[Vec3], normal: &Vec3) -> Option<Corners> {
             kept.push(corner);
         }
     }
-    // As it was given, the first corner is first.
+    // restores the original first corner
     if kept.last() == Some(&corners[0]) {
         kept.rotate_right(1);
     }

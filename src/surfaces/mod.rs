@@ -1,12 +1,12 @@
-//! What is no fold: any surface of flat facets, what its parts hide from each other, and the light that it
-//! exchanges.
+//! Surfaces other than a fold: any surface of flat facets, what its parts hide from each other, and the light
+//! that they exchange.
 //!
-//! A fold has formulas of its own, for which the rest of the crate does without this room. Its door are the
-//! items below: a [`Shape`], read from a file ([`obj`], [`ply`]) or built ([`Accordion`]); the form factors
-//! between its patches and the light that falls on them ([`kernel`]); the bounces as poles and residues, of
-//! one light ([`SurfaceResponse`]) or with parts of known reflectance ([`ReducedExchange`]); and photographs
-//! of it ([`ShapeView`]). Only [`stream`](crate::stream), [`scene`](crate::scene) and the tools come in by
-//! it: they are the places where a scene turns out to be a fold or not.
+//! A fold has formulas of its own, so the rest of the crate does not depend on this module. Its interface is
+//! the items below: a [`Shape`], read from a file ([`obj`], [`ply`]) or built ([`Accordion`]); the form
+//! factors between its patches and the light that falls on them ([`kernel`]); the bounces as poles and
+//! residues, for one light ([`SurfaceResponse`]) or with parts of known reflectance ([`ReducedExchange`]);
+//! and photographs of it ([`ShapeView`]). Only [`stream`](crate::stream), [`scene`](crate::scene) and the
+//! tools use it: there it is decided whether a scene is a fold.
 
 mod accordion;
 mod dense;

@@ -1,4 +1,5 @@
-//! The facet model of any surface of one reflectance: every light brings the terms of its own response.
+//! The facet model of any surface with one reflectance: every light contributes the terms of its own
+//! response.
 
 use nalgebra::DMatrix;
 
@@ -7,7 +8,8 @@ use crate::camera::CameraResponse;
 use crate::forward::{FacetModel, Source, Terms};
 
 impl FacetModel {
-    /// A surface under several lights, each a response to it and the camera's response to its spectrum.
+    /// A surface under several lights, each with the surface's response and the camera's response to its
+    /// spectrum.
     ///
     /// # Example
     /// ```

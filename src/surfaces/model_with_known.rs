@@ -1,4 +1,4 @@
-//! The facet model of a surface with parts of known reflectance: other terms in every waveband.
+//! The facet model of a surface with parts of known reflectance: the terms differ in every waveband.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -9,8 +9,8 @@ use crate::error::Result;
 use crate::forward::{FacetModel, Source, Terms, seen_bands};
 
 impl FacetModel {
-    /// A surface of parts, of which `parts` says the reflectance per waveband of those that are known, under
-    /// the lights of `exchange`, for each of which there is a camera's response.
+    /// A surface whose `parts` state the reflectance per waveband where known, under the lights of
+    /// `exchange`, each with a camera response.
     ///
     /// # Errors
     /// As [`ReducedExchange::with_known`].
@@ -36,7 +36,7 @@ impl FacetModel {
     }
 }
 
-/// One light, of whose terms every facet takes what the bands say.
+/// One light, with the coefficients of its terms on every facet from the bands.
 fn source(terms: &Terms, bands: &[(usize, Vec<WithKnown>)], light: usize, camera: &CameraResponse) -> Source {
     let count = bands.first().map_or(0, |(_, lights)| lights[light].known.len());
     let mut facets = DMatrix::zeros(count, terms.count());

@@ -9,10 +9,10 @@ use tobj::{LoadError, LoadOptions, Model};
 use super::{Group, Shape, file};
 use crate::error::{Error, Result};
 
-/// Faces of fewer corners are lines and points, which a file may hold beside its surface.
+/// Faces with fewer corners are lines and points, which a file may also contain.
 const CORNERS_MIN: usize = 3;
 
-/// Reads a surface; normals, textures, materials, lines and points are passed over.
+/// Reads a surface; normals, textures, materials, lines and points are ignored.
 ///
 /// # Returns
 /// As [`Shape::new`].
@@ -43,16 +43,14 @@ pub fn read(path: &Path) -> Result<(Shape, Vec<String>)> {
     models.map_err(|e| e.of_file(path))
 }
 
-/// What the file says; the parser computes with indices before it knows whether they are in bounds, and may
-/// panic.
+/// Parses the file; the parser uses indices before it checks their bounds, and may panic.
 fn parse(bytes: &[u8]) -> tobj::LoadResult {
     let no_materials = |_: &Path| Ok(Default::default());
     let read = || tobj::load_obj_buf(&mut &bytes[..], &LoadOptions::default(), no_materials);
     catch_unwind(read).unwrap_or(Err(LoadError::FaceVertexOutOfBounds))
 }
 
-/// The line of a face with a number of more digits than any index: the parser would take three times it
-/// modulo 2⁶⁴.
+/// The line of a face with a number of more digits than any index: the parser would reduce it modulo 2⁶⁴.
 fn line_of_no_index(bytes: &[u8]) -> Option<usize> {
     const DIGITS_MAX: usize = 10;
     let is_long = |digits: &[u8]| digits.len() > DIGITS_MAX;
@@ -73,7 +71,7 @@ fn surface(models: &[Model]) -> Result<(Shape, Vec<String>)> {
         let all = sides.map(|sides| indices.by_ref().take(sides as usize).collect::<Vec<_>>());
         faces.extend(all.filter(|corners| corners.len() >= CORNERS_MIN));
         match groups.last_mut() {
-            // A change of material within a group is no new one.
+            // a change of material within a group does not start a new one
             Some(last) if last.name == *name => last.facets.end = faces.len(),
             _ => groups.push(Group { name: name.clone(), facets: first_face..faces.len() }),
         }

@@ -7,7 +7,7 @@ use super::Shape;
 use crate::geometry::{Panel, Vec3};
 
 impl Shape {
-    /// The groups of facets that are panels, by their numbers.
+    /// The groups of facets that form panels, by their numbers.
     #[must_use]
     pub fn panels(&self) -> BTreeMap<usize, Panel> {
         let panel = |facets: &Range<usize>| {

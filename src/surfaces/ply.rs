@@ -9,7 +9,7 @@ use ply_rs_bw::ply::{DefaultElement, Property};
 use super::{Shape, file};
 use crate::error::{Error, Result};
 
-/// Reads a surface; colours, normals and other properties are passed over.
+/// Reads a surface; colours, normals and other properties are ignored.
 ///
 /// # Returns
 /// As [`Shape::new`].

@@ -1,4 +1,4 @@
-//! Flat convex polygons: area, centroid, normal, and what a plane leaves of one.
+//! Flat convex polygons: area, centroid, normal, and clipping by a plane.
 
 use smallvec::SmallVec;
 
@@ -64,7 +64,7 @@ impl Polygon {
         edges(&self.corners)
     }
 
-    /// Unit normal on the reflecting side; not a number without area.
+    /// Unit normal on the reflecting side; NaN if the area is zero.
     #[must_use]
     pub fn normal(&self) -> Vec3 {
         self.normal
@@ -76,7 +76,7 @@ impl Polygon {
         self.area
     }
 
-    /// The plane that it lies in.
+    /// Its plane.
     #[must_use]
     pub fn plane(&self) -> Plane {
         let middle = self.corners.iter().sum::<Vec3>() / self.corners.len() as f64;
@@ -103,13 +103,13 @@ impl Polygon {
         (0..self.corners.len()).flat_map(from).fold(0.0, f64::max)
     }
 
-    /// The same polygon with its other side up.
+    /// The same polygon with its sides swapped.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self { corners: self.corners.iter().rev().copied().collect(), normal: -self.normal, area: self.area }
     }
 
-    /// What lies in front of `plane`; none if no area does.
+    /// The part in front of `plane`; none if it has no area.
     ///
     /// # Example
     /// ```
@@ -152,12 +152,12 @@ fn spin(corners: &[Vec3]) -> Vec3 {
     corners[1..].windows(2).map(|pair| (pair[0] - first).cross(&(pair[1] - first))).sum()
 }
 
-/// Sides from corner to corner, the last to the first too.
+/// Sides from corner to corner, including that from the last to the first.
 pub fn edges(corners: &[Vec3]) -> impl Iterator<Item = (Vec3, Vec3)> + '_ {
     corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
 }
 
-/// Corners of what lies in front of `plane` (Sutherland and Hodgman 1974).
+/// Corners of the part in front of `plane` (Sutherland and Hodgman 1974).
 #[must_use]
 pub fn clip(corners: &[Vec3], plane: &Plane) -> Corners {
     let mut out = Corners::new();

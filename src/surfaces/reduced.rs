@@ -7,45 +7,44 @@ use crate::error::{Error, Result};
 use crate::response::orthogonalise;
 use crate::solve::dot;
 
-/// Most functions: their products with each other still fit into memory and take seconds.
+/// Most functions: their mutual products still fit into memory and take seconds.
 const FUNCTIONS_MAX: usize = 2000;
-/// Share of the tolerance below which a function is left out at first.
+/// Initial threshold of weight for a function, relative to the tolerance.
 const LEAST_WEIGHT: f64 = 0.1;
-/// Functions that weigh less are rounding.
+/// Functions with less weight are rounding errors.
 const ROUNDING: f64 = 1e-16;
 
-/// The exchange between functions that are each zero outside one part, by Galerkin's method: right for every
-/// reflectance of the parts, so that what is left to do in a waveband has little to do with the number of
-/// patches.
+/// The exchange between functions that are zero outside of one part each, by Galerkin's method: accurate for
+/// every reflectance of the parts, so that the work per waveband hardly depends on the number of patches.
 ///
-/// The functions span what the light is after every number of bounces, cut up by parts: Lanczos' method, had
-/// it to tell the parts apart.
+/// The functions span the light after every number of bounces, separated by parts: the Lanczos method,
+/// modified to distinguish parts.
 #[derive(Clone, Debug)]
 pub struct ReducedExchange {
     /// Function by function, symmetric.
     pub(super) exchange: DMatrix<f64>,
-    /// Part outside of which each function is zero.
+    /// The part outside of which each function is zero.
     pub(super) part_of: Vec<usize>,
     /// Direct light, function by light.
     pub(super) lights: DMatrix<f64>,
     /// Facet means, facet by function.
     pub(super) means: DMatrix<f64>,
-    /// What the response of a waveband may be off by, relative to the light.
+    /// Tolerance for the response in a waveband, relative to the light.
     pub(super) tolerance: f64,
 }
 
 impl ReducedExchange {
-    /// Reduces `exchange` under `lights`, each one direct irradiance per patch, on a surface of which
-    /// `part_of_facet` says the part of every facet, from 0, until the residual in the system of eq. (24) is
-    /// at most `tolerance`, relative to each light, where all reflectances are 1.
+    /// Reduces `exchange` under `lights`, each a direct irradiance per patch, on a surface whose facets
+    /// belong to the parts `part_of_facet`, from 0, until the residual in the system of eq. (24) is at most
+    /// `tolerance`, relative to each light, with all reflectances equal to 1.
     ///
     /// # Source
-    /// Galerkin's method on a Krylov space, as in Lanczos' (Golub and Van Loan, *Matrix Computations*,
-    /// section 10.3).
+    /// Galerkin's method on a Krylov space, as in the Lanczos method (Golub and Van Loan, *Matrix
+    /// Computations*, section 10.3).
     ///
     /// # Errors
-    /// [`Error::Numeric`] if a light does not fall on the surface, or none leaves it, or the tolerance is not
-    /// reached.
+    /// [`Error::Numeric`] if a light does not fall on the surface, or no light escapes it, or the tolerance
+    /// is not reached.
     pub fn new(
         exchange: &(impl Exchange + ?Sized),
         part_of_facet: &[usize],
@@ -73,7 +72,7 @@ impl ReducedExchange {
     }
 }
 
-/// Functions on the patches, orthonormal, with what the exchange makes of them.
+/// Orthonormal functions on the patches, with their images under the exchange.
 struct Functions {
     of_patches: Vec<Vec<f64>>,
     images: Vec<Vec<f64>>,
@@ -81,7 +80,7 @@ struct Functions {
 }
 
 impl Functions {
-    /// The light after every number of bounces, cut up by parts, as long as what is new in it weighs more
+    /// The light after every number of bounces, separated by parts, as long as its new component weighs more
     /// than `least`.
     fn of(
         exchange: &(impl Exchange + ?Sized),
@@ -167,7 +166,7 @@ impl Functions {
     }
 }
 
-/// What `x`, times `scale`, is on each part.
+/// The restriction of `x`, times `scale`, to each part.
 fn cut(x: &[f64], part_of: &[usize], scale: f64) -> Vec<(usize, Vec<f64>)> {
     let parts = part_of.iter().max().map_or(0, |last| last + 1);
     let on = |part| x.iter().zip(part_of).map(|(x, of)| if *of == part { scale * x } else { 0.0 }).collect();

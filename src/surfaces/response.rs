@@ -1,11 +1,11 @@
-//! One light on any surface, bounced for every reflectance at once.
+//! One light on any surface, with bounces for every reflectance at once.
 
 use super::Exchange;
 use crate::error::{Error, Result};
 use crate::response::{Excited, ModeSet};
 
-/// What the bounces make of one light, as poles and residues for every facet: with one reflectance r, facet i
-/// receives `E_i(r) = Σ_k residue_ik / (1 − r·pole_k)`.
+/// Response of the bounces to one light, as poles and residues for every facet: with one reflectance r, facet
+/// i receives `E_i(r) = Σ_k residue_ik / (1 − r·pole_k)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceResponse {
     modes: ModeSet,
@@ -17,14 +17,14 @@ impl SurfaceResponse {
     /// reflectance in [0, 1].
     ///
     /// # Returns
-    /// The response and the residual that it reached.
+    /// The response and the residual achieved.
     ///
     /// # Source
-    /// Deeb et al., eqs. (16) and (26) to (28), by Lanczos' method as in
+    /// Deeb et al., eqs. (16) and (26) to (28), by the Lanczos method as in
     /// [`crate::response::Response::solve`].
     ///
     /// # Errors
-    /// [`Error::Numeric`] if no light falls on the surface, or none leaves it.
+    /// [`Error::Numeric`] if no light falls on the surface, or none escapes it.
     ///
     /// # Example
     /// ```
@@ -65,7 +65,7 @@ impl SurfaceResponse {
         Ok(Self { modes })
     }
 
-    /// The modes behind it.
+    /// Its modes.
     #[must_use]
     pub fn modes(&self) -> &ModeSet {
         &self.modes
@@ -77,7 +77,7 @@ impl SurfaceResponse {
         self.modes.residues.nrows()
     }
 
-    /// Irradiance of a facet with all bounces, the surface's reflectance being `reflectance`, in [0, 1].
+    /// Irradiance of a facet including all bounces, for a surface of this `reflectance`, in [0, 1].
     #[must_use]
     pub fn irradiance(&self, facet: usize, reflectance: f64) -> f64 {
         self.modes.of_facet(facet).map(|(pole, residue)| residue / (1.0 - reflectance * pole)).sum()

@@ -1,4 +1,4 @@
-//! Any surface as flat facets: triangles and convex quadrilaterals, in groups that have names.
+//! Any surface as flat facets: triangles and convex quadrilaterals, in named groups.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -10,12 +10,12 @@ use crate::error::{Error, Result};
 /// Most facets of a shape, and patches of a mesh.
 pub const FACETS_MAX: usize = 100_000;
 
-/// Facets that belong together, a panel of a fold for example.
+/// Facets that belong together, such as a panel of a fold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
     /// Its name in the file.
     pub name: String,
-    /// Which facets it has.
+    /// Its facets.
     pub facets: Range<usize>,
 }
 
@@ -26,8 +26,8 @@ struct Facet {
     polygon: Polygon,
 }
 
-/// A surface of flat facets. Facets reflect on the side from which their corners run counter-clockwise, and
-/// cast shadows with both; lengths are in any unit.
+/// A surface of flat facets. Facets reflect on the side from which their corners are counter-clockwise, and
+/// cast shadows with both sides; lengths are in any unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     vertices: Vec<[f64; 3]>,
@@ -38,15 +38,15 @@ pub struct Shape {
 
 impl Shape {
     /// A surface with these faces, lists of corners as indices into `vertices`. Groups are ranges of faces in
-    /// order; a face in none is part of the surface all the same.
+    /// order; a face outside of all groups also belongs to the surface.
     ///
     /// # Returns
-    /// The surface, and a line for everything that was left out (faces without area, faces given twice) or
-    /// that is odd (edges of more than two faces).
+    /// The surface, and a remark on everything omitted (faces without area, duplicate faces) or unusual
+    /// (edges of more than two faces).
     ///
     /// # Errors
-    /// [`Error::Shape`] if no face is left or too many are, a face has more than four corners, is not flat or
-    /// not convex, a corner does not exist, or a coordinate is not finite.
+    /// [`Error::Shape`] if no face is left or there are too many, a face has more than four corners, is not
+    /// flat or not convex, a corner does not exist, or a coordinate is not finite.
     ///
     /// # Example
     /// ```
@@ -93,11 +93,11 @@ impl Shape {
         Ok((Self { vertices, facets, groups, two_sided: false }, remarks))
     }
 
-    /// The same surface reflecting on both sides: as many facets again, the backs, in groups called
+    /// The same surface reflecting on both sides: with as many additional facets, the backs, in groups named
     /// `… (back)`.
     ///
     /// # Errors
-    /// [`Error::Shape`] if these are too many.
+    /// [`Error::Shape`] if there are too many.
     pub fn with_backs(mut self) -> Result<Self> {
         let count = self.facets.len();
         check_count(2 * count)?;
@@ -144,7 +144,7 @@ impl Shape {
         &self.facets[facet].corners
     }
 
-    /// The vertices as they were given.
+    /// The original vertices.
     #[must_use]
     pub fn vertices(&self) -> &[[f64; 3]] {
         &self.vertices

@@ -1,4 +1,4 @@
-//! What a line of sight meets first.
+//! The first facet along a line of sight.
 
 use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::BHShape;
@@ -9,16 +9,16 @@ use super::Shape;
 use super::polygon::{Polygon, edges};
 use crate::geometry::{Panel, Vec3};
 
-/// Lines that pass a facet's side by less than this part of the shape meet it: between two facets is no gap.
+/// Lines that miss a facet by less than this, relative to the shape, hit it: there is no gap between facets.
 const GAP: f64 = 1e-12;
-/// Boxes are larger than their facets by this part of the shape: flat ones are missed otherwise.
+/// Margin of boxes around their facets, relative to the shape: flat ones would be missed.
 const MARGIN: f64 = 1e-9;
-/// Places along each side of a facet that have to be seen for it to be seen whole.
+/// Places along each side of a facet that must be visible for the whole facet to count as visible.
 const PLACES: usize = 8;
-/// The outermost of them are so far inside, in sides: what meets the facet there does not hide it.
+/// Distance of the outermost of them from the sides, in sides: an obstruction there does not hide the facet.
 const EDGE: f64 = 0.01;
 
-/// A shape as it is looked at.
+/// A shape prepared for lines of sight.
 pub struct Sight {
     boxes: Vec<FacetBox>,
     tree: Bvh<f64, 3>,
@@ -33,19 +33,19 @@ struct FacetBox {
     node: usize,
 }
 
-/// A facet met by a line of sight.
+/// A facet hit by a line of sight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Met {
     /// Its number.
     pub facet: usize,
-    /// How far away, in lengths of the direction.
+    /// Its distance, in lengths of the direction.
     pub distance: f64,
-    /// Whether it is met on its reflecting side.
+    /// Whether it is hit on its reflecting side.
     pub in_front: bool,
 }
 
 impl Sight {
-    /// Prepares a shape to be looked at.
+    /// Prepares a shape for lines of sight.
     ///
     /// # Example
     /// ```
@@ -72,8 +72,8 @@ impl Sight {
         Self { boxes, tree, gap: GAP * size }
     }
 
-    /// The facet that is met first from `eye` on in a direction; of two in one place, such as both sides of a
-    /// sheet, the one that is met on its reflecting side.
+    /// The first facet from `eye` in a direction; of two coincident ones, such as both sides of a sheet, the
+    /// one hit on its reflecting side.
     #[must_use]
     pub fn first(&self, eye: &Vec3, direction: &Vec3) -> Option<Met> {
         let ray = Ray::new((*eye).into(), *direction);
@@ -85,8 +85,8 @@ impl Sight {
         })
     }
 
-    /// Whether the whole of a facet of a panel is seen from `eye`: from between its rows and columns nothing
-    /// stands before it.
+    /// Whether an entire facet of a panel, between its rows and columns, is visible from `eye` without
+    /// obstructions.
     #[must_use]
     pub fn sees_all(&self, eye: &Vec3, panel: &Panel, [u, v]: [[f64; 2]; 2]) -> bool {
         let [start, end, _, outer] = panel.corners;
@@ -161,9 +161,9 @@ mod tests {
         }
     }
 
-    /// From above nothing is hidden. Fourteen degrees to the right the outer right panel, which leans by ten,
-    /// shows its back and hides the valley; from low on the right only the top of the outer left panel is
-    /// seen over it.
+    /// From above nothing is hidden. From fourteen degrees to the right, the outer right panel, which leans
+    /// by ten, shows its back and hides the valley; from low on the right only the top of the outer left
+    /// panel is visible over it.
     #[test]
     fn a_panel_hides_what_is_behind_it() {
         let shape = w();

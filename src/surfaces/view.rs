@@ -1,4 +1,4 @@
-//! A photograph of any surface: every facet of one colour, in front of what it hides.
+//! A photograph of any surface: facets in uniform colours, each in front of those it hides.
 
 use nalgebra::{DMatrix, Vector3};
 
@@ -9,14 +9,14 @@ use crate::forward::render::{Frame, Picture, Pinhole, Stand, Viewpoint};
 use crate::geometry::{LightSource, Panel};
 use crate::image::Point;
 
-/// The camera stands this many times the shape's size away,
+/// Distance of the camera in sizes of the shape,
 const DISTANCE: f64 = 7.0;
-/// and so much to the right of the light and below it, for one of the distance.
+/// and its offset to the right of the light and downwards, relative to the distance.
 const ASIDE: [f64; 2] = [0.1, 0.12];
-/// Light nearer to the y axis than this cosine makes another axis stand upright.
+/// If the light is nearer to the y axis than this cosine, another axis is upright.
 const ALONG_Y: f64 = 0.9;
 
-/// A surface and the camera that sees it.
+/// A surface and its camera.
 pub struct ShapeView {
     frame: Frame,
     camera: Pinhole,
@@ -26,8 +26,8 @@ pub struct ShapeView {
 }
 
 impl ShapeView {
-    /// A view of a surface; where `viewpoint` does not say otherwise, from the side of its first light, the y
-    /// axis upright.
+    /// A view of a surface; unless `viewpoint` states otherwise, from the direction of its first light, with
+    /// the y axis upright.
     ///
     /// # Errors
     /// As [`Viewpoint::camera`].
@@ -41,14 +41,14 @@ impl ShapeView {
     }
 
     /// The numbers of the panels that show their reflecting side, and their corners in the picture: crease
-    /// end 0, crease end 1, outer end 1, outer end 0. Others may hide parts of them.
+    /// end 0, crease end 1, outer end 1, outer end 0. Others may partly hide them.
     #[must_use]
     pub fn corners(&self) -> Vec<(usize, [Point; 4])> {
         let seen = |(k, panel): &(usize, Panel)| Some((*k, self.camera.project_all(panel.corners)?));
         self.panels.iter().filter_map(seen).collect()
     }
 
-    /// Takes a picture of the light on the facets (facet by channel), of up to three channels, before a black
+    /// Takes a picture of the light on the facets (facet by channel), with up to three channels, on a black
     /// background. Facets seen from behind are black.
     #[must_use]
     pub fn take(&self, light: &DMatrix<f64>) -> Picture {
@@ -61,7 +61,7 @@ impl ShapeView {
     }
 }
 
-/// From a little beside the light; rolled by two degrees: no pixel row runs along an edge.
+/// From slightly beside the light; rolled by two degrees, so that no pixel row is parallel to an edge.
 fn usual_stand(shape: &Shape, sources: &[LightSource], points: &[Vector3<f64>]) -> Stand {
     let extreme = |pick: fn(f64, f64) -> f64| {
         points.iter().copied().reduce(|a, b| a.zip_map(&b, pick)).unwrap_or_default()
@@ -79,7 +79,7 @@ fn usual_stand(shape: &Shape, sources: &[LightSource], points: &[Vector3<f64>]) 
     Stand { eye: look_at + DISTANCE * (high - low).norm() * direction, look_at, up }
 }
 
-/// Where the light comes from; of skies alone, where most of the surface faces.
+/// Direction of the light; if there are only skies, the direction that most of the surface faces.
 fn towards_light(shape: &Shape, sources: &[LightSource], middle: &Vector3<f64>) -> Vector3<f64> {
     let of_source = |source: &LightSource| match source {
         LightSource::Directional { towards, .. } => Some(*towards),
@@ -105,7 +105,7 @@ mod tests {
     use crate::surfaces::Accordion;
 
     /// Every pixel shows the facet that a search without tree or projection finds through its four corners,
-    /// if they find one.
+    /// if it finds one.
     #[test]
     fn pixels_inside_a_facet_have_its_very_colour() {
         let valley = Fold::new(60.0, 1.0, 1.0, FacetGrid { rows: 3, cols: 2 }).unwrap();
@@ -136,7 +136,7 @@ mod tests {
         assert_eq!(seen, [0, 1, 2]); // the last shows its back
     }
 
-    /// The facet met first, by the planes and sides of all.
+    /// The first facet, from the planes and sides of all.
     fn nearest(shape: &Shape, camera: &Pinhole, at: Point) -> Option<(usize, bool)> {
         let (eye, sight) = (camera.position(), camera.line_of_sight(at));
         let met = shape.facets().enumerate().filter_map(|(n, facet)| {

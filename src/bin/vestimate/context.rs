@@ -1,4 +1,4 @@
-//! What the samples of one scene need.
+//! Common context of the samples of one scene.
 
 use std::sync::Arc;
 
@@ -15,37 +15,37 @@ use vfold::stream::Scene;
 use super::flat::FlatContext;
 use super::settings::Smoothness;
 
-/// A scene with what its samples are estimated by.
+/// A scene with everything needed to estimate its samples.
 pub struct Context {
     pub grid: WavelengthGrid,
-    /// The scene as it was stated, with what is to be fitted.
+    /// The scene as stated, with the unknowns to be fitted.
     pub model: SceneModel,
     pub method: SceneMethod,
-    /// The reflectance to set out from, if one was given.
+    /// The initial reflectance, if stated.
     pub start: Option<Vec<f64>>,
     /// The scene's fold, if it is one.
     pub fold: Option<Box<FoldSetting>>,
     /// Light and camera.
     pub stated: Stated,
-    /// What the light may be; none if it is known.
+    /// Candidates for the light; empty if it is known.
     pub lights: Vec<Candidate>,
-    /// What else a light that was stated may be.
+    /// Alternatives to a stated light.
     pub other_lights: Option<Arc<Others>>,
-    /// What a known fold shows of light and exposure.
+    /// Light and exposure inferred from a known fold.
     pub shown: Option<Shown>,
 }
 
 /// The method on the wavelengths of a scene.
 pub enum SceneMethod {
-    /// The prior, which scenes on the same wavelengths share.
+    /// The prior, shared by scenes on the same wavelengths.
     Map(Arc<Prior>),
     Smooth(Smoothness),
     Flat(FlatContext),
 }
 
 impl Context {
-    /// That of a scene of which `fit` is unknown, and the light, if there are `lights`: the scene is in one
-    /// of them; if not, in the light that it states, or perhaps in one of the others.
+    /// The context of a scene in which `fit` is unknown, and the light, if there are `lights`: the scene is
+    /// in one of them; otherwise in the light that it states, or perhaps in one of the others.
     pub fn new(
         scene: &Scene,
         method: SceneMethod,
@@ -71,7 +71,7 @@ impl Context {
         })
     }
 
-    /// How its samples are estimated under a prior, `is_auto` if what is fitted is up to the photograph.
+    /// The inference for its samples under a prior; `is_auto` if the photograph determines what is fitted.
     pub fn inference<'a>(&'a self, prior: &'a Prior, is_auto: bool) -> Inference<'a> {
         Inference {
             model: &self.model,
@@ -88,8 +88,8 @@ impl Context {
     }
 }
 
-/// The fold among sources other than sun and uniform sky, as photographs of it are modelled; none if the
-/// scene is no fold, or a part of it is known.
+/// The fold among sources other than sun and uniform sky, as modelled in photographs; none if the scene is no
+/// fold, or a part of it is known.
 fn among_sources(scene: &Scene) -> Result<Option<FoldSetting>> {
     let is_whole = scene.fold_if_one()?.is_some() && scene.materials()?.is_empty();
     if is_whole { FoldSetting::of(scene).map(Some) } else { Ok(None) }

@@ -1,4 +1,4 @@
-//! `--plot`: the first samples, as many as one drawing holds.
+//! `--plot`: the first samples, as many as fit into one drawing.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use vfold::scene::sheet;
 use vfold::spectrum::{Spectrum, illuminant};
 use vfold::stream::{EstimateRecord, Record, Scene, Scenes};
 
-/// What is drawn of a stream.
+/// The drawing of a stream.
 pub struct Drawing<'a> {
     path: &'a Path,
     daylight: Spectrum,
@@ -31,13 +31,13 @@ impl<'a> Drawing<'a> {
         })
     }
 
-    /// Takes a record, with its estimate if it is a sample that has one.
+    /// Adds a record, with its estimate if it is a sample that has one.
     pub fn add(&mut self, record: &Record, estimate: Option<&EstimateRecord>) -> Result<()> {
         match record {
             Record::Scene(scene) => self.scenes.enter(scene, scene.clone()),
             Record::Sample(sample) => {
                 self.samples += 1;
-                // of those that have no scene nothing was estimated
+                // samples without a scene have no estimate
                 if let (Ok(Some(scene)), Some(estimate)) = (self.scenes.of(sample), estimate)
                     && self.sheets.len() < MULTIPLES_MAX
                 {

@@ -34,41 +34,41 @@ use super::known_fold::KnownFold;
 use super::messages::{self, Deviations};
 use super::settings::{MUNSELL, SHEETS, Smoothness};
 
-/// How spectra are estimated, from `--method` and `--prior`.
+/// The method, from `--method` and `--prior`.
 enum Method {
-    /// What the prior is made of; none for the built-in one.
+    /// The spectra of the prior; none for the built-in one.
     Map(Option<PriorSpectra>),
     Smooth(Smoothness),
     Flat(FlatEstimator),
 }
 
-/// What is made of a sample.
+/// The results for a sample.
 pub struct Made {
-    /// The estimate as its record has it.
+    /// The estimate in the form of its record.
     pub estimate: EstimateRecord,
-    /// Records of the iterations, if they are asked for.
+    /// Records of the iterations, if requested.
     pub trace: Vec<Fields>,
 }
 
-/// Spectra of a prior, and their classes where they are known.
+/// Spectra of a prior, and their classes if known.
 type PriorSpectra = (Vec<Spectrum>, Option<Vec<usize>>);
 
-/// Estimates as the flags ask for.
+/// Estimates as the flags request.
 pub struct Estimator<'a> {
-    /// What the flags say of every sample.
+    /// The flags for every sample.
     pub asked: Asked<'a>,
     method: Method,
-    /// Whether the light is to be found, whatever scenes say of it.
+    /// Whether the light is to be inferred, ignoring the scenes' statements.
     forgets_light: bool,
-    /// What tells the light beside them.
+    /// A known fold that determines the light.
     known_fold: Option<KnownFold>,
-    /// The prior of the scene before, with its wavelengths, nm.
+    /// The prior of the previous scene, with its wavelengths, nm.
     last_prior: Mutex<Option<(Vec<f64>, Arc<Prior>)>>,
-    /// What else the light of the scene before may be.
+    /// The alternatives to the light of the previous scene.
     last_others: Mutex<Option<Arc<Others>>>,
 }
 
-/// The paper's estimator fits an exposure and nothing else of the scene.
+/// The paper's estimator fits no unknown of the scene other than the exposure.
 fn check_fit(args: &Args) -> Result<()> {
     if args.fit.contains(&EXPOSURE.flag) && args.exposure.is_some_and(|exposure| exposure != Exposure::Free) {
         let problem = "exposure is given by --exposure already";
@@ -134,7 +134,7 @@ impl Transform for Estimator<'_> {
         }
         let lights =
             if scene.is_light_unknown()? { self.lights_before(&scene.camera()?, &grid)? } else { Vec::new() };
-        // in whichever light, the scene is made of the same parts
+        // the scene has the same components in any light
         let lit = if lights.is_empty() { None } else { Some(scene.in_assumed_light(&grid)?) };
         let method = match &self.method {
             Method::Map(spectra) => SceneMethod::Map(self.prior_on(&grid, spectra.as_ref())?),
@@ -219,12 +219,12 @@ impl<'a> Estimator<'a> {
         })
     }
 
-    /// The flags behind it.
+    /// Its flags.
     pub fn args(&self) -> &Args {
         self.asked.args
     }
 
-    /// The estimate from facets that all have noise of this standard deviation.
+    /// The estimate from facets with uniform noise of this standard deviation.
     pub fn of_facets(
         &self,
         context: &Context,
@@ -238,8 +238,8 @@ impl<'a> Estimator<'a> {
         map::estimate(&data, inference.prior, inference.start)
     }
 
-    /// The prior on the wavelengths of a scene. To make one takes a while and much memory: scenes that follow
-    /// each other on the same wavelengths share it.
+    /// The prior on the wavelengths of a scene. It takes time and memory to compute, so successive scenes on
+    /// the same wavelengths share it.
     fn prior_on(&self, grid: &WavelengthGrid, spectra: Option<&PriorSpectra>) -> Result<Arc<Prior>> {
         let wavelengths_nm = grid.wavelengths_nm();
         let mut last = self.last_prior.lock().unwrap_or_else(PoisonError::into_inner);
@@ -260,8 +260,8 @@ impl<'a> Estimator<'a> {
         Ok(prior)
     }
 
-    /// What else a light may be: scenes that follow each other before the same camera share it, as to make it
-    /// takes longer than an estimate.
+    /// Alternatives to a light. Computing them takes longer than an estimate, so successive scenes with the
+    /// same camera share them.
     fn shared(&self, others: Option<Others>) -> Option<Arc<Others>> {
         let others = others?;
         let mut last = self.last_others.lock().unwrap_or_else(PoisonError::into_inner);
@@ -273,11 +273,11 @@ impl<'a> Estimator<'a> {
         Some(Arc::clone(last.insert(Arc::new(others))))
     }
 
-    /// What an unknown light before a camera may be.
+    /// Candidates for an unknown light, for this camera.
     ///
     /// # Errors
-    /// [`Error::Usage`] if flags ask for what is not found along with a light; lights that do not cover the
-    /// wavelengths.
+    /// [`Error::Usage`] if flags request something that cannot be combined with inferring the light; lights
+    /// that do not cover the wavelengths.
     fn lights_before(&self, camera: &CameraRecord, grid: &WavelengthGrid) -> Result<Vec<Candidate>> {
         let fits_scene = self.asked.fit.iter().any(|unknown| **unknown != EXPOSURE);
         if !self.asked.args.has_prior() || self.asked.args.join.is_some() || fits_scene {
@@ -291,7 +291,7 @@ impl<'a> Estimator<'a> {
         }
         let lights = match &self.asked.args.illuminants {
             Some(spec) => equal_candidates(self.asked.args.common.illuminants(spec)?),
-            // a known sheet tells lights apart that are nearer to each other
+            // a known sheet distinguishes more similar lights
             None if self.known_fold.as_ref().is_some_and(|known| !known.is_photograph()) => {
                 fine_candidate_lights()?
             }
@@ -300,10 +300,10 @@ impl<'a> Estimator<'a> {
         Candidate::all(&lights, grid, &camera.sensitivities)
     }
 
-    /// What is known of reflectances before a scene.
+    /// The prior on reflectances in a scene.
     ///
     /// # Errors
-    /// [`Error::Usage`] if nothing is, and nobody can say how far off an estimate is.
+    /// [`Error::Usage`] if there is none, so that the error of an estimate is unknown.
     pub fn prior_of<'c>(&self, context: &'c Context) -> Result<&'c Prior> {
         match &context.method {
             SceneMethod::Map(prior) => Ok(prior),
@@ -316,18 +316,18 @@ impl<'a> Estimator<'a> {
         }
     }
 
-    /// Whether the flags say that a photograph may be one of a real sheet.
+    /// Whether the flags state that a photograph may show a real sheet.
     pub fn asks_for_auto(&self) -> bool {
         self.asked.args.fit.contains(&&AUTO)
     }
 
-    /// Whether what is fitted is up to the photograph.
+    /// Whether the photograph determines what is fitted.
     pub fn is_auto(&self) -> bool {
         self.asked.args.fit.is_empty() || self.asks_for_auto()
     }
 
-    /// Adds an estimate that was made `how`, with the verdict on it, and all ids of `joined` if there were
-    /// several.
+    /// Adds an estimate made by the method `how`, with its verdict, and the ids of all `joined` samples if
+    /// there were several.
     pub fn finish(
         &self,
         context: &Context,
@@ -341,7 +341,7 @@ impl<'a> Estimator<'a> {
             let (id, exposure) = (sample.id(), self.asked.exposure_of(sample)?);
             cli::say("vestimate", &format!("{id}: {how}; {}", messages::outcome(estimate, exposure)));
         }
-        // methods that weigh no facets know their noise all the same
+        // methods that do not weight facets know their noise nevertheless
         let rms = || Ok(Deviations::of(&noise, context.model.facets(), &sample.facet_rgb()?)?.rms());
         refuse_unexplained(estimate, || verdict.map_or_else(rms, |_| Ok(1.0)))?;
         let (method, prior) = match &context.method {
@@ -364,7 +364,7 @@ impl<'a> Estimator<'a> {
         Ok(Made { estimate: record, trace: asked.transpose()?.unwrap_or_default() })
     }
 
-    /// Says that a photograph whose facets an ideal fold does not explain is taken for one all the same.
+    /// Warns that a photograph whose facets an ideal fold does not explain is nevertheless treated as one.
     fn say_unmodelled(&self, sample: &Sample, ideal: &Estimate, why: Unmodelled) {
         if !self.asked.args.common.quiet {
             let (id, reduced_chi) = (sample.id(), ideal.residual_rms);
@@ -376,7 +376,7 @@ impl<'a> Estimator<'a> {
         }
     }
 
-    /// The paper's objective weighs all facets alike, white being 1; and how it was made.
+    /// The paper's objective, which weights all facets equally, white being 1; and a description of it.
     fn smooth(
         &self,
         context: &Context,
@@ -403,7 +403,7 @@ impl<'a> Estimator<'a> {
     }
 }
 
-/// The same standard deviation for every facet, white being 1.
+/// Equal standard deviations for all facets, white being 1.
 fn alike(rgb: &FacetValues) -> FacetValues {
     rgb.map(|_, _| 1.0)
 }

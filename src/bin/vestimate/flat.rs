@@ -1,4 +1,4 @@
-//! `--method park|khan`: flat sheets, whose spectrum is a combination of few components.
+//! `--method park|khan`: flat sheets, whose spectrum is a combination of a few components.
 
 use std::fmt;
 
@@ -14,12 +14,12 @@ use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 
 use super::settings::{NoiseSd, Smoothness};
 
-/// A method of flat sheets.
+/// A method for flat sheets.
 struct FlatMethod {
     name: &'static str,
-    /// Components where none are asked for and as many values are known.
+    /// Default number of components, if as many values are known.
     components: usize,
-    /// Weight of smoothness where none is given.
+    /// Default weight of smoothness.
     smoothness: f64,
     estimate: fn(&FlatSheet, &DMatrix<f64>, usize, f64) -> Result<Estimate>,
 }
@@ -65,7 +65,7 @@ pub struct MethodArgs {
     pub basis: Option<String>,
 }
 
-/// Estimates of flat sheets as the flags ask for.
+/// Estimates of flat sheets as the flags request.
 pub struct FlatEstimator {
     method: &'static FlatMethod,
     components: Option<usize>,
@@ -84,7 +84,7 @@ pub struct FlatContext {
 }
 
 impl FlatEstimator {
-    /// The method that the flags ask for, if it is one of flat sheets.
+    /// The method requested by the flags, if it is one for flat sheets.
     pub fn of(args: &super::Args) -> Result<Option<Self>> {
         let MethodArgs { method, components, basis } = &args.method;
         let method = match method {
@@ -123,7 +123,7 @@ impl FlatContext {
         self.method.name
     }
 
-    /// Name of the spectra that have the components.
+    /// Name of the spectra from which the components are derived.
     pub fn basis(&self) -> &str {
         &self.basis_name
     }
@@ -141,13 +141,13 @@ impl fmt::Display for FlatContext {
     }
 }
 
-/// Refuses flags that only flat sheets know.
+/// Refuses flags that apply to flat sheets only.
 fn check_fold(args: &MethodArgs) -> Result<()> {
     let surplus = [("--components", args.components.is_some()), ("--basis", args.basis.is_some())];
     refuse(surplus, "not known to --method interreflection", "give --method park or khan")
 }
 
-/// Refuses flags that flat sheets do not know.
+/// Refuses flags that do not apply to flat sheets.
 fn check_flat(args: &super::Args, name: &str) -> Result<()> {
     let surplus = [
         ("--prior", args.prior.is_some()),

@@ -1,4 +1,4 @@
-//! `--join`: photographs of one sheet, estimated together.
+//! `--join`: photographs of one sheet, estimated jointly.
 
 use std::cell::RefCell;
 use std::str::FromStr;
@@ -18,14 +18,14 @@ use super::Args;
 use super::context::Context;
 use super::estimator::{Estimator, Made};
 
-/// How records name their sheet.
+/// How records identify their sheet.
 #[derive(Clone, Debug)]
 pub enum Join {
     /// By the id without its suffix.
     Id,
-    /// In a field.
+    /// By a field.
     Field(String),
-    /// In a list of ids, as they are compared.
+    /// By a list of ids, in the form for comparison.
     Ids(Vec<String>),
 }
 
@@ -46,10 +46,10 @@ impl FromStr for Join {
 }
 
 impl Join {
-    /// The sheet that a sample is of; none if it stands alone.
+    /// The sheet of a sample; none if the sample stands alone.
     ///
     /// # Errors
-    /// A sample that does not name its sheet where it should.
+    /// A sample that does not name its sheet where required.
     pub fn sheet(&self, sample: &Sample) -> Result<Option<String>> {
         let id = composed(&sample.id());
         match self {
@@ -66,10 +66,10 @@ impl Join {
     }
 }
 
-/// Photographs are estimated together as those of a real sheet, under a prior.
+/// Photographs are estimated jointly as those of a real sheet, under a prior.
 ///
 /// # Errors
-/// [`Error::Usage`] if flags ask for something else.
+/// [`Error::Usage`] if flags request anything else.
 pub fn check(args: &Args) -> Result<()> {
     if !args.has_prior() {
         let problem = "photographs are estimated together under a prior alone";
@@ -86,7 +86,7 @@ pub fn check(args: &Args) -> Result<()> {
     Ok(())
 }
 
-/// Passes all records of `reader` through the estimator, photographs of one sheet together.
+/// Passes all records of `reader` through the estimator, photographs of one sheet jointly.
 pub fn run(
     join: &Join,
     reader: &mut Reader,
@@ -113,7 +113,7 @@ pub fn run(
     }
 }
 
-/// Photographs of one sheet have the wavelengths of its spectrum.
+/// Photographs of one sheet must share the wavelengths of its spectrum.
 ///
 /// # Errors
 /// [`Error::Field`] if they do not.
@@ -125,17 +125,17 @@ pub fn check_wavelengths(one: &Context, other: &Context) -> Result<()> {
     Err(Error::field("wavelengths_nm", problem))
 }
 
-/// Facets, how far each may be off, and the photograph in which they were measured.
+/// Facets, their standard deviations, and the photograph in which they were measured.
 type Taken = (FacetValues, FacetValues, Photographed);
 
-/// A photograph that is estimated with others: what it is made of, and the rest of it.
+/// A photograph that is estimated jointly: its model's parts, and the rest.
 type Picture = (Parts, Taken);
 
 impl Estimator<'_> {
-    /// A photograph that is estimated with others.
+    /// Prepares a photograph that is estimated jointly.
     ///
     /// # Errors
-    /// [`Error::Field`] if the sample is no photograph of a fold.
+    /// [`Error::Field`] if the sample is not a photograph of a fold.
     fn picture(&self, context: &Context, sample: &Sample) -> Result<Picture> {
         let alone = |why: String| {
             let problem = format!("{}: {why}; only photographs of folds are estimated together", sample.id());

@@ -1,4 +1,4 @@
-//! `--known-fold`: a fold of a sheet whose reflectance is known, beside those that are estimated.
+//! `--known-fold`: a fold of a sheet with known reflectance, in addition to those that are estimated.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -20,23 +20,23 @@ use super::context::SceneMethod;
 
 const FLAG: &str = "--known-fold";
 
-/// The fold as its record has it.
+/// The fold from its record.
 pub struct KnownFold {
     path: String,
     scene: Scene,
     sample: Sample,
     spectrum: Spectrum,
-    /// What it showed last, and of which light.
+    /// Its latest result, and the light to which it applies.
     last: Mutex<Option<(Taken, Known)>>,
 }
 
-/// Light and camera of samples, and whether the light is daylight that nobody stated, or unknown.
+/// Light and camera of samples, and whether the light is assumed daylight, or unknown.
 type Taken = (Optics, [bool; 2]);
 
-/// What the light may be, and what else is known of it.
+/// Candidates for the light, and other inferred knowledge on it.
 type Known = (Vec<Candidate>, Option<Shown>);
 
-/// Parses what the flag takes.
+/// Parses the value of the flag.
 pub fn file_and_spec(text: &str) -> std::result::Result<(String, String), String> {
     match text.split_once('=') {
         Some((file, spec)) if !file.is_empty() && !spec.is_empty() => Ok((file.to_owned(), spec.to_owned())),
@@ -45,11 +45,11 @@ pub fn file_and_spec(text: &str) -> std::result::Result<(String, String), String
 }
 
 impl KnownFold {
-    /// The one that the flags name, if they do.
+    /// The fold named by the flags, if any.
     ///
     /// # Errors
-    /// A file that is not there or holds something else than one sample, or a SPEC that names no one
-    /// reflectance; [`Error::Usage`] with a method that weighs no lights.
+    /// A file that does not exist or does not contain exactly one sample, or a SPEC that does not name a
+    /// single reflectance; [`Error::Usage`] with a method that weighs no lights.
     pub fn of(args: &Args) -> Result<Option<Self>> {
         let Some((path, spec)) = &args.known_fold else { return Ok(None) };
         if !args.has_prior() {
@@ -83,8 +83,8 @@ impl KnownFold {
         Ok(Some(Self { path: path.clone(), scene, sample, spectrum, last: Mutex::default() }))
     }
 
-    /// What it shows of the light of a scene of samples, which is that scene in an assumed one if it is one
-    /// of `lights`; these as it leaves them.
+    /// Its evidence on the light of the samples' scene, which is stated in an assumed light if it is one of
+    /// `lights`; returns these as it leaves them.
     pub fn shown(
         &self,
         asked: &Asked,
@@ -141,7 +141,7 @@ impl KnownFold {
         self.sample.is_photograph()
     }
 
-    /// What its photograph is made of, its scene being `lit`.
+    /// The parts of its photograph's model, with its scene `lit`.
     fn parts(&self, asked: &Asked, lit: &Scene) -> Result<Parts> {
         let fold = FoldSetting::of(lit).map_err(|e| self.at(&e))?;
         let rgb = self.sample.facet_rgb()?;
@@ -163,7 +163,7 @@ impl KnownFold {
     /// Its scene in the light of samples.
     ///
     /// # Errors
-    /// [`Error::Usage`] if another camera took it, in another light or on other wavelengths.
+    /// [`Error::Usage`] if it was taken by another camera, in another light or on other wavelengths.
     fn in_light_of(&self, (samples, [is_daylight_assumed, is_unknown]): &Taken) -> Result<Scene> {
         let camera = self.scene.camera().map_err(|e| self.at(&e))?;
         let grid = self.scene.grid().map_err(|e| self.at(&e))?;
@@ -191,11 +191,11 @@ impl KnownFold {
         Ok(lit)
     }
 
-    /// Refuses a sample that is computed where this was photographed, or the other way round, and one whose
-    /// exposure is to be found along with this one's, and was another.
+    /// Refuses a computed sample if this fold was photographed, or the reverse, and one whose exposure is to
+    /// be inferred from this fold's, but was different.
     ///
     /// # Errors
-    /// [`Error::Field`] if both records say so.
+    /// [`Error::Field`] if the records show this.
     pub fn check(&self, sample: &Sample, exposure: Exposure) -> Result<()> {
         if sample.is_photograph() != self.is_photograph() {
             let [own, known] = [sample, &self.sample]

@@ -117,12 +117,12 @@ struct Args {
 }
 
 impl Args {
-    /// What is known of reflectances beforehand.
+    /// The prior on reflectances.
     fn prior(&self) -> &str {
         self.prior.as_deref().unwrap_or(settings::SHEETS)
     }
 
-    /// Whether estimates know how far off they may be.
+    /// Whether estimates include their error bars.
     fn has_prior(&self) -> bool {
         self.method.method == MethodName::Interreflection && !matches!(self.prior(), "smooth" | "none")
     }
@@ -159,7 +159,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let done = |record: Record, made: Option<Made>| {
         let (estimate, trace) = match (made, &record) {
             (Some(Made { estimate, trace }), _) => (Some(estimate), trace),
-            // as an interrupted run made it
+            // the result of an interrupted run
             (None, Record::Sample(sample)) => (sample.estimate()?, Vec::new()),
             (None, _) => (None, Vec::new()),
         };
@@ -189,9 +189,9 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     drawing.as_ref().map_or(Ok(()), Drawing::write)
 }
 
-/// Says what of a photograph is not ideal, when the facets cannot be those of the scene, so that a spectrum
-/// fitted to them means nothing, and when they say nothing of what was to be fitted; where verdicts are said
-/// at the end, these say it.
+/// Reports departures of a photograph from the ideal, facets that cannot be those of the scene, so that a
+/// fitted spectrum is meaningless, and unknowns that the facets do not determine; unless verdicts at the end
+/// report these.
 fn warn(args: &Args, id: &str, estimate: &EstimateRecord, is_judged: bool) {
     if args.common.quiet || !args.has_prior() {
         return;

@@ -1,4 +1,4 @@
-//! What `-v` says of a sample: what was decided, and what came of it.
+//! Messages of `-v` on a sample: decisions and results.
 
 use std::fmt;
 
@@ -9,18 +9,18 @@ use vfold::estimate::{Estimate, Exposure};
 use vfold::forward::{FacetModel, FacetValues};
 use vfold::solve::Termination;
 
-/// How far each facet may be off, and how that is known.
+/// Standard deviations of facets, and their origin.
 pub struct Deviations {
-    /// White being 1.
+    /// Relative to white.
     pub sd: FacetValues,
-    /// The part that is the model's, relative to the facet's value.
+    /// The part due to the model, relative to the facet's value.
     model_error: f64,
-    /// What tells the part that is noise.
+    /// The origin of the noise part.
     noise_from: &'static str,
 }
 
 impl Deviations {
-    /// Of facets `rgb` by their noise.
+    /// For facets `rgb`, from their noise.
     pub fn of(noise: &Noise, model: &FacetModel, rgb: &FacetValues) -> Result<Self> {
         let noise_from = match noise.source {
             NoiseSource::Stated(_) => "--noise-sd",
@@ -47,13 +47,13 @@ impl fmt::Display for Deviations {
     }
 }
 
-/// How many numbers are left of how many facet values.
+/// The numbers of facet values before and after compression.
 pub fn size(data: &FacetData) -> String {
     let (left, values) = data.size();
     format!("{values} values as {left}")
 }
 
-/// What came of it, in a line.
+/// The result, in one line.
 pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
     let ended = match estimate.termination {
         Termination::Converged { .. } => "converged",
@@ -64,13 +64,13 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
     let iterations = format!("{} iterations, {ended}", estimate.iterations);
     let reduced_chi = match &sd {
         Some(_) => format!("residual {:.2} times the noise", estimate.residual_rms),
-        // of a method that weighs all facets alike
+        // for a method that weights all facets equally
         None => format!("residuals {:.1e} of white", estimate.residual_rms),
     };
     let how = match exposure {
         Exposure::Known(_) => Some("known"),
         Exposure::Sum => Some("by sums"),
-        // among what was fitted, unless the method does not know how far off it is
+        // fitted with the rest, unless the method has no error bars
         Exposure::Free | Exposure::Expected(_) => estimate.fitted.is_empty().then_some("fitted"),
     };
     let exposure = how.map(|how| format!("exposure {:.4} {how}", estimate.exposure));

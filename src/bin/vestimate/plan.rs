@@ -1,4 +1,4 @@
-//! `--plan`: what estimates will be worth, before any photograph.
+//! `--plan`: the expected accuracy of estimates, before any photograph.
 
 use clap::Args;
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ use super::estimator::Estimator;
 use super::join;
 use super::settings::NoiseSd;
 
-/// Noise of facets, white being 1, if none is given.
+/// Default noise of facets, white being 1.
 const NOISE_SD: f64 = 1e-3;
 
 /// What is planned.
@@ -53,17 +53,17 @@ struct Planned {
     sheets: Sheets,
 }
 
-/// What is expected of the sheets.
+/// The assumed sheets.
 enum Sheets {
     /// Ideal folds: the facets of each.
     Ideal(Vec<FacetValues>),
-    /// Real sheets, everything that sets them apart unknown: what the photograph of each is made of.
+    /// Real sheets, with all effects unknown: the parts of each photograph's model.
     Real(Vec<Parts>),
 }
 
 impl PlanArgs {
-    /// Writes a plan for every scene of `reader`, and no other record but samples that carry an error: one
-    /// may stand for a scene that was lost.
+    /// Writes a plan for every scene of `reader`, and no other record except samples that carry an error,
+    /// which may represent a lost scene.
     pub fn run(&self, estimator: &Estimator, reader: &mut Reader, out: &mut Output) -> Result<()> {
         let mut first = None;
         while let Some(record) = reader.read()? {
@@ -85,11 +85,10 @@ impl PlanArgs {
         Ok(())
     }
 
-    /// Whether the light of all scenes is to be found.
+    /// Whether the light of all scenes is to be inferred.
     ///
     /// # Errors
-    /// [`Error::Usage`] if it is to be found where there is nothing to find it from, or is given to scenes
-    /// that have one.
+    /// [`Error::Usage`] if it is to be inferred without any data, or is stated for scenes that have one.
     pub fn forgets_light(&self, has_kernel: bool) -> Result<bool> {
         let is_unknown = self.illuminant.iter().any(|spec| spec == UNKNOWN_LIGHT);
         if self.plan || has_kernel {
@@ -115,7 +114,7 @@ impl PlanArgs {
         }
     }
 
-    /// Gives camera and light to a scene that has none.
+    /// Adds camera and light to a scene without them.
     pub fn complete(&self, scene: &mut Scene, common: &Common) -> Result<()> {
         if scene.has_camera() {
             let flags = [&self.camera, &self.sky_illuminant];
@@ -139,7 +138,7 @@ impl PlanArgs {
         scene.set_optics(&optics.resolve(&common.camera(camera)?, common)?)
     }
 
-    /// The sheets in a scene: their facets have no noise, and are taken to have it.
+    /// The sheets in a scene: their facets are free of noise, but are assumed to have it.
     fn planned(&self, estimator: &Estimator, mut scene: Scene) -> Result<Planned> {
         let context = estimator.scene(&mut scene)?;
         let (grid, model, noise_sd) = (scene.grid()?, Setting::of(&scene)?.model()?, noise_sd(estimator));
@@ -170,7 +169,7 @@ impl PlanArgs {
         Ok(Planned { scene, context, angle_deg, sheets })
     }
 
-    /// The plan of a scene, its pictures being estimated together with those of another if there is one.
+    /// The plan of a scene, its pictures being estimated jointly with those of another if there is one.
     fn plan(&self, estimator: &Estimator, planned: &Planned, other: Option<&Planned>) -> Result<Fields> {
         let mut expected = ExpectedError::default();
         planned.estimates(estimator, other)?.iter().for_each(|estimate| expected.add(estimate));
@@ -194,7 +193,7 @@ impl PlanArgs {
 }
 
 impl Planned {
-    /// One estimate per sheet; their error bars are what to expect.
+    /// One estimate per sheet, whose error bars are the expected errors.
     fn estimates(&self, estimator: &Estimator, other: Option<&Self>) -> Result<Vec<Estimate>> {
         match &self.sheets {
             Sheets::Ideal(sheets) => {

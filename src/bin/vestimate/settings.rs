@@ -6,10 +6,10 @@ use vfold::estimate::unknowns::{self, Flag, NONE};
 
 /// The built-in prior, the default.
 pub const SHEETS: &str = "sheets";
-/// The set whose classes are known, and the basis of the methods for flat sheets.
+/// The set with known classes, and the default basis of the methods for flat sheets.
 pub const MUNSELL: &str = "munsell";
 
-/// Where the standard deviations of facets come from.
+/// Source of the facets' standard deviations.
 #[derive(Clone, Copy)]
 pub enum NoiseSd {
     Auto,
@@ -24,7 +24,7 @@ pub enum Smoothness {
     Weight(f64),
 }
 
-/// Parses what `--fit` takes.
+/// Parses the value of `--fit`.
 pub fn fit() -> impl TypedValueParser<Value = &'static Flag> {
     let flags = || unknowns::flags().chain([&NONE]);
     let values = flags().map(|flag| PossibleValue::new(flag.value).help(flag.help));

@@ -1,11 +1,11 @@
-//! What is thought of the estimates, on a terminal, once all records are written.
+//! The verdicts on the estimates, printed on a terminal once all records are written.
 
 use std::io::{self, IsTerminal};
 
 use vfold::cli;
 use vfold::stream::{LevelRecord, VerdictRecord};
 
-/// Most samples that have a line of their own.
+/// Most samples with a line each.
 const LINES: usize = 24;
 
 /// The verdicts of a stream.
@@ -21,7 +21,7 @@ pub struct Verdicts {
 }
 
 impl Verdicts {
-    /// None where nobody reads them: standard error is no terminal.
+    /// None if nobody would read them, because standard error is not a terminal.
     pub fn on_terminal() -> Option<Self> {
         io::stderr().is_terminal().then(Self::default)
     }
@@ -41,7 +41,7 @@ impl Verdicts {
         }
     }
 
-    /// A line each, or how many there are of each kind where they would fill the terminal.
+    /// Prints a line each, or their counts if the lines would fill the terminal.
     pub fn say(&self) {
         if self.lines.len() <= LINES {
             return self.lines.iter().for_each(|line| cli::say("vestimate", line));

@@ -1,4 +1,4 @@
-//! Colours of pictures for the eye.
+//! Colour balance of pictures for the eye.
 
 use vfold::Result;
 use vfold::camera::CameraResponse;
@@ -8,14 +8,13 @@ use vfold::stream::{CameraRecord, Scene, SpectrumRecord};
 
 use super::{Args, camera};
 
-/// By the camera and the first light of a scene; a scene may have none.
+/// From the camera and the first light of a scene, which may have neither.
 pub fn of_scene(scene: &Scene, photograph: &Photograph) -> Balance {
     let white = || white(&scene.grid()?, &scene.camera()?, &scene.illuminants()?);
     Balance::of(photograph, white().ok().flatten().as_ref())
 }
 
-/// By the camera that was named, or that the photograph names, in the light that was given. A preview needs
-/// neither.
+/// From the stated camera, or the one named in the photograph, in the stated light. A preview needs neither.
 pub fn of_photograph(args: &Args, photograph: &Photograph) -> Balance {
     let white = || {
         let Some(camera) = camera::camera(args.camera.as_deref(), Some(photograph))? else { return Ok(None) };

@@ -1,4 +1,4 @@
-//! Many photographs at once.
+//! Measures many photographs.
 
 use std::path::{Path, PathBuf};
 
@@ -12,8 +12,7 @@ use super::pictures::name;
 use super::reading::Opened;
 use super::sample::Setup;
 
-/// Forgets what an interrupted run measured from the first photograph on that was replaced since; which that
-/// is.
+/// Discards the results of an interrupted run from the first replaced photograph on; returns that photograph.
 ///
 /// # Errors
 /// As [`Kept::sample`].
@@ -26,22 +25,21 @@ pub fn forget_replaced<'a>(images: &'a [PathBuf], out: &mut Output) -> Result<Op
         };
         let there = path.metadata().ok().and_then(|metadata| FileStamp::of(&metadata));
         if measured.file.zip(there).is_some_and(|(measured, there)| measured != there) {
-            out.keep(n + 1)?; // the scene is one of them
+            out.keep(n + 1)?; // counting the scene
             return Ok(Some(path));
         }
     }
     Ok(None)
 }
 
-/// Whether a sample is called after a photograph.
+/// Whether a sample is named after a photograph.
 fn is_of(path: &Path) -> impl Fn(&Sample) -> bool {
     let name = composed(&name(path));
     move |sample| composed(&sample.id()) == name
 }
 
-/// Measures photographs, of which the first is open already, and hands on their samples in order, each as
-/// soon as it is there. Those that `kept` has are not measured again. No more of them are in memory than
-/// there are threads.
+/// Measures photographs, the first of which is already open, and passes on their samples in order, each as
+/// soon as it is ready. Those in `kept` are not measured again. At most one per thread is in memory.
 pub fn measure(
     setup: &Setup,
     images: &[PathBuf],

@@ -1,4 +1,4 @@
-//! What the numbers of a photograph are worth.
+//! Calibration of a photograph's numbers.
 
 use std::path::{Path, PathBuf};
 
@@ -57,11 +57,11 @@ pub struct CalibrationArgs {
 }
 
 impl CalibrationArgs {
-    /// What the flags say, spectra on the scene's wavelengths.
+    /// The values of the flags, with spectra on the scene's wavelengths.
     ///
     /// # Errors
-    /// [`Error::Usage`] if a number is outside its range or the chart has other patches than its reference;
-    /// as [`Common::reflectances`].
+    /// [`Error::Usage`] if a number is out of range or the chart has other patches than its reference; as
+    /// [`Common::reflectances`].
     pub fn resolved(&self, grid: &WavelengthGrid, common: &Common) -> Result<ResolvedCalibration> {
         if let Some(x) = self.exposure.filter(|x| !(*x > 0.0 && x.is_finite())) {
             return Err(Error::usage("--exposure", format!("{x} gives no picture"), "give a number above 0"));
@@ -92,7 +92,7 @@ impl CalibrationArgs {
     }
 }
 
-/// What can calibrate a photograph.
+/// Means of calibrating a photograph.
 pub struct ResolvedCalibration {
     pub exposure: Option<f64>,
     pub chart: Target,
@@ -100,14 +100,14 @@ pub struct ResolvedCalibration {
 }
 
 impl ResolvedCalibration {
-    /// Leaves out a detected chart where a white card or the exposure was stated.
+    /// Drops a detected chart if a white card or the exposure was stated.
     pub fn forget_spare(&self, regions: &mut Regions) {
         if regions.chart_confidence.is_some() && (regions.white.is_some() || self.exposure.is_some()) {
             (regions.chart, regions.chart_confidence) = (None, None);
         }
     }
 
-    /// What is marked in a photograph to calibrate with, if anything is.
+    /// The marked calibration target, if any.
     fn marked(&self, regions: &Regions) -> Result<Option<(&Target, Corners)>> {
         match (regions.chart, regions.white, self.exposure) {
             (None, None, _) => Ok(None),
@@ -120,7 +120,7 @@ impl ResolvedCalibration {
         }
     }
 
-    /// The patches of what is marked.
+    /// The patches of the marked target.
     ///
     /// # Errors
     /// As [`ResolvedCalibration::calibrate`].
@@ -128,11 +128,11 @@ impl ResolvedCalibration {
         self.marked(regions)?.map(|(target, corners)| target.grid(lens, corners)).transpose()
     }
 
-    /// The calibration by what is marked in a photograph, if anything is.
+    /// The calibration by the marked target, if any.
     ///
     /// # Errors
-    /// [`Error::Picture`] if chart or card are clipped, turned, or nothing like what they should be;
-    /// [`Error::Usage`] if there are several ways to calibrate.
+    /// [`Error::Picture`] if chart or card are clipped, turned, or unlike their reference; [`Error::Usage`]
+    /// if there are several targets.
     pub fn calibrate(
         &self,
         scene: &Scene,
@@ -159,7 +159,7 @@ impl ResolvedCalibration {
     }
 }
 
-/// Makes measured values those of the scene's camera.
+/// Converts measured values to those of the scene's camera.
 pub fn apply(calibration: &Calibration, facets: &mut [FacetMeasurement]) {
     for facet in facets {
         let Some(mean) = &mut facet.mean else { continue };

@@ -1,4 +1,4 @@
-//! Which camera took a photograph.
+//! Determines the camera of a photograph.
 
 use std::path::Path;
 
@@ -6,8 +6,8 @@ use vfold::image::Photograph;
 use vfold::measure::{Camera, camera_of};
 use vfold::{Result, spectrum};
 
-/// The camera that was named, or else the [camera of](camera_of) the first photograph; none only if that
-/// cannot be read.
+/// The stated camera, or else the [camera of](camera_of) the first photograph; none only if that cannot be
+/// read.
 pub fn camera(named: Option<&str>, first: Option<&Photograph>) -> Result<Option<Camera>> {
     match named {
         Some(named) => Ok(Some(Camera::named(named))),
@@ -15,8 +15,8 @@ pub fn camera(named: Option<&str>, first: Option<&Photograph>) -> Result<Option<
     }
 }
 
-/// What is to be said of a photograph of which EXIF says that another camera took it than the one whose
-/// curves it is measured with.
+/// A warning for a photograph that according to EXIF was taken by another camera than the one whose
+/// sensitivities are used.
 pub fn other_than(camera: &str, path: &Path, photograph: &Photograph) -> Option<String> {
     let (make, model) = &photograph.info().camera.called();
     spectrum::is_other_camera(camera, make, model).then(|| {

@@ -12,11 +12,11 @@ use super::calibration::ResolvedCalibration;
 use super::regions::ResolvedRegions;
 use super::{Args, light};
 
-/// Writes the camera of the one photograph.
+/// Writes the camera derived from a single photograph.
 ///
 /// # Errors
 /// [`Error::Usage`] if there are several photographs or no chart, [`Error::Picture`] if the chart is too
-/// dark, clipped, turned or another one.
+/// dark, clipped, turned or a different one.
 pub fn save(
     args: &Args,
     file: &Path,

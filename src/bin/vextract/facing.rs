@@ -1,4 +1,4 @@
-//! Whether a chart that was found faces the sun as far as it is said to.
+//! Checks whether a detected chart faces the sun as stated.
 
 use std::collections::BTreeMap;
 
@@ -7,13 +7,12 @@ use vfold::image::{DetectedChart, Homography, Lens, camera_pose};
 use vfold::scene::Setting;
 use vfold::stream::{Corners, Regions};
 
-/// A chart turned further than this, degrees, gets 3.4 % less light: an exposure by a chart is taken to be
-/// off by 4 %.
+/// A chart turned further than this, degrees, receives 3.4 % less light: the assumed error of an exposure by
+/// a chart is 4 %.
 const MOST_DEG: f64 = 15.0;
 
-/// By how much at least a found chart is turned from the sun, degrees, if that is more than the angle of this
-/// cosine allows: it is turned from the camera by the angle at which it is seen, and the camera from the sun
-/// as the fold shows it.
+/// Least angle of a detected chart from the sun, degrees, if it exceeds what the stated cosine allows: the
+/// chart is turned from the camera by its viewing angle, and the fold shows the angle between camera and sun.
 ///
 /// # Errors
 /// As [`Homography::through`].
@@ -31,7 +30,7 @@ pub fn turned_deg(setting: &Setting, regions: &Regions, lens: Lens, cos: f64) ->
     Ok((is_lit_by_sun && least > MOST_DEG + cos.acos().to_degrees()).then_some(least))
 }
 
-/// Both panels of a fold, without what the lens bends.
+/// Both panels of a fold, undistorted.
 fn fold(panels: &BTreeMap<usize, Corners>, lens: Lens) -> Option<[Corners; 2]> {
     let panel = |number: usize| panels.get(&number).map(|panel| panel.map(|corner| lens.undistort(corner)));
     Some([panel(0)?, panel(1)?])

@@ -1,4 +1,4 @@
-//! Panels and charts that are detected, not stated.
+//! Panels and charts that are detected rather than stated.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -14,10 +14,10 @@ use vfold::{Error, Result};
 
 use super::{Args, balance, reading::Reading};
 
-/// Prints where fold and chart are in each photograph, and draws them if `--overlay` is given.
+/// Prints the positions of fold and chart in each photograph, and draws them if `--overlay` is present.
 ///
 /// # Errors
-/// As [`Reading::open`] for a single photograph; of several, one that cannot be read is said in its line.
+/// As [`Reading::open`] for a single photograph; with several, an unreadable one is reported in its line.
 pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Output) -> Result<()> {
     out.expect(images.len());
     for path in images {
@@ -39,7 +39,7 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
     Ok(())
 }
 
-/// The line of a photograph in which this was found.
+/// The line for a photograph with these detections.
 ///
 /// # Errors
 /// As [`detection_line`].
@@ -54,7 +54,7 @@ pub fn line(
     detection_line(path, photograph, fold, angle.as_ref(), chart)
 }
 
-/// What tells the angle of a fold in a photograph beside its corners.
+/// Data on a fold's angle in a photograph other than its corners.
 fn seen(args: &Args, photograph: &Photograph, lens: Lens) -> FoldSeen {
     FoldSeen {
         size: [photograph.width(), photograph.height()],
@@ -65,10 +65,10 @@ fn seen(args: &Args, photograph: &Photograph, lens: Lens) -> FoldSeen {
     }
 }
 
-/// Finds the panels of a fold and puts them into `regions`; the confidence with which they were found.
+/// Detects the panels of a fold and adds them to `regions`; returns the confidence.
 ///
 /// # Errors
-/// [`Error::Picture`] if no fold is found, or none surely enough to measure it without a look.
+/// [`Error::Picture`] if no fold is found, or its confidence is too low for measuring it without review.
 pub fn find(
     args: &Args,
     path: &Path,
@@ -92,7 +92,7 @@ pub fn find(
     Ok(found.confidence)
 }
 
-/// The fold that the corners of panels are rather those of than of the scene's, if that is a fold.
+/// The fold that agrees better with the panels' corners than the scene's, if the scene's is a fold.
 pub fn other_fold(
     args: &Args,
     photograph: &Photograph,
@@ -108,7 +108,7 @@ pub fn other_fold(
     Ok(seen.other_than(&[panel0, panel1], &stated_fold(&fold, scene.angle_sd_deg()?)))
 }
 
-/// Finds a chart and puts it into `regions`, if it is found surely.
+/// Detects a chart and adds it to `regions`, if its confidence is high.
 pub fn find_calibration(photograph: &Photograph, lens: Lens, regions: &mut Regions) {
     if let Some(found) = sure_chart(photograph, lens) {
         regions.chart = Some(found.corners);
@@ -116,26 +116,26 @@ pub fn find_calibration(photograph: &Photograph, lens: Lens, regions: &mut Regio
     }
 }
 
-/// The chart in a photograph, if it is found surely.
+/// The chart in a photograph, if its confidence is high.
 pub fn sure_chart(photograph: &Photograph, lens: Lens) -> Option<DetectedChart> {
     find_chart(photograph, &lens).filter(DetectedChart::is_sure)
 }
 
-/// What to do where finding does not.
+/// Remedy if detection fails.
 const REMEDY: &str = "mark the corners with --pick, or give --panel0 and --panel1";
 
-/// A photograph in which there is no fold, for that reason.
+/// A photograph without a fold, for this reason.
 pub fn not_found(path: &Path, reason: &impl Display) -> Error {
     Error::picture(path, reason, REMEDY)
 }
 
-/// A fold that may be another thing, or of which a side may lie along another edge.
+/// A fold that may be something else, or with a side that may be along another edge.
 pub fn unsure(path: &Path, confidence: f64) -> Error {
     let problem = format!("the fold's corners are found to {:.0} % sure only", 100.0 * confidence);
     Error::picture(path, problem, format!("look at what --find --overlay FILE.png draws, {REMEDY}"))
 }
 
-/// Draws fold and chart over their photograph, if that is asked for.
+/// Draws fold and chart over their photograph, if requested.
 fn draw(
     args: &Args,
     path: &Path,

@@ -1,4 +1,4 @@
-//! Which light a photograph was taken in.
+//! Determines the light of a photograph.
 
 use std::path::Path;
 
@@ -7,8 +7,8 @@ use vfold::image::Photograph;
 use vfold::measure::{LightTaken, light_of};
 use vfold::spectrum::UNKNOWN_LIGHT;
 
-/// What was given, or, if no illuminant was, the light of the `first` photograph by what its camera wrote;
-/// and what is to be said of that.
+/// The stated flags or, without an illuminant, the light of the `first` photograph according to its camera;
+/// and a note on that.
 pub fn optics(stated: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (OpticsArgs, Option<String>) {
     let mut optics = stated.clone();
     let (true, Some(photograph)) = (optics.illuminant.is_empty(), first) else { return (optics, None) };

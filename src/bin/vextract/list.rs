@@ -1,4 +1,4 @@
-//! Which photographs are measured: more of them than a command line holds can be listed in a file.
+//! The photographs to be measured: if too many for a command line, they can be listed in a file.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -8,7 +8,7 @@ use vfold::{Error, Result};
 
 use super::Args;
 
-/// Those of the command line, then those of the list.
+/// Those on the command line, then those in the list.
 ///
 /// # Errors
 /// [`Error::Usage`] if no pictures are named, or list and scene both come from standard input;

@@ -170,7 +170,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         if resolved.illuminant.is_empty() {
             scene.set_daylight_assumed()?;
         }
-        // another camera's sensitivities are never taken silently
+        // another camera's sensitivities are never used silently
         notes.extend(camera.note.filter(|_| stands_in || !args.common.quiet));
         notes.extend(assumed.filter(|_| !args.common.quiet));
     }
@@ -204,7 +204,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
         ));
     }
     if let ([only], None) = (images.as_slice(), &args.files_from) {
-        // Nothing to go on with: the one photograph's error is the tool's.
+        // nothing else to measure: the only photograph's error is the tool's
         let sample = setup.sample(only, first)?;
         notes.iter().for_each(|line| cli::say("vextract", line));
         out.scene(&scene)?;

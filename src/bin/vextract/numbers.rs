@@ -1,11 +1,11 @@
-//! What is said of a photograph's numbers: where they begin and end, and whether they are a camera's own.
+//! Messages on a photograph's numbers: their range, and whether they are a camera's own.
 
 use std::path::Path;
 
 use vfold::Error;
 use vfold::image::{FacetMeasurement, PhotographInfo, Processing};
 
-/// What may make a photograph's spectrum wrong, a line each.
+/// Possible causes of a wrong spectrum, one line each.
 pub fn warnings(
     path: &Path,
     info: &PhotographInfo,
@@ -16,9 +16,9 @@ pub fn warnings(
     lines.into_iter().flatten().map(|line| format!("warning: {}{line}", path.display())).collect()
 }
 
-/// The error of a photograph none of whose facets can be used.
+/// The error for a photograph without usable facets.
 pub fn none_usable(path: &Path, info: &PhotographInfo, facets: &[FacetMeasurement]) -> Error {
-    // Facets of a panel that was not marked have no pixels at all.
+    // facets of an unmarked panel have no pixels
     let seen = facets.iter().filter(|facet| facet.pixels > 0.0 || facet.clipped > 0).count();
     let clipped = facets.iter().filter(|facet| facet.clipped > 0).count();
     if 2 * clipped > seen {
@@ -30,7 +30,7 @@ pub fn none_usable(path: &Path, info: &PhotographInfo, facets: &[FacetMeasuremen
     Error::picture(path, "no facet has a pixel that can be used", remedy)
 }
 
-/// Numbers that end below white, or at it so often that facets are left out.
+/// Numbers that end below white, or so often at it that facets are excluded.
 fn clipped(info: &PhotographInfo, facets: &[FacetMeasurement]) -> Option<String> {
     let (ends, percent) = (ends(info), 100.0 * clipped_part(facets));
     let left_out = facets.iter().filter(|facet| facet.clipped > 0 && facet.mean.is_none()).count();

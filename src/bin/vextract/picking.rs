@@ -1,4 +1,4 @@
-//! Corners that a person marks, on a page that this machine serves to itself.
+//! Corners marked by a person on a web page served on this machine.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -13,12 +13,12 @@ use vfold::{Error, Result};
 use super::{Args, balance, finding, reading::Reading};
 
 const PAGE: &str = include_str!("../../../share/picker.html");
-/// Who has left the page open for longer has forgotten it.
+/// A page left open for longer has been forgotten.
 const WAIT: Duration = Duration::from_secs(600);
-/// What shows a page in a browser, by system.
+/// Commands that show a page in a browser, by system.
 const OPENERS: [&str; 2] = ["xdg-open", "open"];
 
-/// Prints what a person marks in the photograph, beginning with the fold that is found in it.
+/// Prints what a person marks in the photograph, starting with the detected fold.
 ///
 /// # Errors
 /// [`Error::Usage`] for several photographs, as [`Reading::open`], [`write_preview`] and
@@ -33,7 +33,7 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
     let chart = finding::sure_chart(&photograph, lens);
     let found =
         finding::line(args, path, &photograph, lens, (&find_fold(&photograph, &lens), chart.as_ref()))?;
-    // the chart stays as the person has it
+    // the chart remains as the person marked it
     let around = |clicks| {
         let fold = find_fold_around(&photograph, &lens, clicks);
         finding::line(args, path, &photograph, lens, (&fold, None))
@@ -61,7 +61,7 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
     out.text(&line)
 }
 
-/// The photograph as a browser shows it.
+/// The photograph in a format for browsers.
 fn preview(args: &Args, path: &Path, photograph: &Photograph) -> Result<Vec<u8>> {
     let unwritten = |source| Error::File { path: "the page's picture".to_owned(), source };
     let folder = tempfile::tempdir().map_err(unwritten)?;
@@ -70,12 +70,12 @@ fn preview(args: &Args, path: &Path, photograph: &Photograph) -> Result<Vec<u8>>
     std::fs::read(&file).map_err(unwritten)
 }
 
-/// Two places of the photograph, px, as `x,y x,y`.
+/// Two places in the photograph, px, as `x,y x,y`.
 fn clicks(text: &str) -> Option<[Point; 2]> {
     text.split_whitespace().map(parse_point).collect::<Option<Vec<_>>>()?.try_into().ok()
 }
 
-/// Opens the page for somebody who sits at a terminal, and says where it is.
+/// Opens the page for a user at a terminal, and prints its address.
 fn show(path: &Path, address: &str) {
     cli::say("vextract", &format!("{}: mark the panels on {address}", path.display()));
     let open = |opener: &&str| {

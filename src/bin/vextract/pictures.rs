@@ -1,4 +1,4 @@
-//! Pictures of what was measured.
+//! Pictures of the measured facets.
 
 use std::path::{Path, PathBuf};
 
@@ -32,7 +32,7 @@ impl PictureArgs {
         Ok(())
     }
 
-    /// Writes previews if they are asked for; whether they are.
+    /// Writes previews if requested; returns whether they are.
     ///
     /// # Errors
     /// As `open` and [`write_preview`].
@@ -50,7 +50,7 @@ impl PictureArgs {
         Ok(true)
     }
 
-    /// Draws the overlay if it is asked for.
+    /// Draws the overlay if requested.
     ///
     /// # Errors
     /// As [`write_overlay`].
@@ -68,7 +68,7 @@ impl PictureArgs {
     }
 }
 
-/// A sample, and what is drawn of it, is called after its photograph.
+/// The name of a sample and its drawings, from its photograph.
 pub fn name(image: &Path) -> String {
     image.file_stem().unwrap_or(image.as_os_str()).to_string_lossy().into_owned()
 }

@@ -1,4 +1,4 @@
-//! Where the panels are seen exactly.
+//! Refines the positions of panels.
 
 use clap::Args;
 use vfold::image::{Grid, Lens, Photograph, REFINED_WITHIN_PX, Refinement, refine};
@@ -30,7 +30,7 @@ pub struct Placed {
 
 impl PlacingArgs {
     /// # Errors
-    /// [`Error::Usage`] if the reach is no distance.
+    /// [`Error::Usage`] if the reach is not a valid distance.
     pub fn check(&self) -> Result<()> {
         let px = self.reach_px();
         if px > 0.0 && px <= MOST_PX {
@@ -40,17 +40,17 @@ impl PlacingArgs {
         Err(Error::usage("--refine", problem, "give 1 to 100, such as --refine=6"))
     }
 
-    /// How far from the corners edges are looked for, px.
+    /// Search distance for edges around the corners, px.
     fn reach_px(&self) -> f64 {
         self.refine.unwrap_or(REFINED_WITHIN_PX)
     }
 
-    /// Whether it is to be said along which sides there are no edges.
+    /// Whether sides without edges are to be reported.
     pub fn asks_for_edges(&self) -> bool {
         self.refine.is_some()
     }
 
-    /// Whether somebody told how the lens bends the picture.
+    /// Whether the lens distortion was stated.
     pub fn is_lens_stated(&self) -> bool {
         self.distortion.is_some()
     }
@@ -64,7 +64,7 @@ impl PlacingArgs {
         Ok(lens.transpose()?.unwrap_or(Lens::STRAIGHT))
     }
 
-    /// Panels with the given corners, refined unless they are exact, behind the lens.
+    /// Panels with these corners, refined unless they are exact, through the lens.
     ///
     /// # Errors
     /// As [`PlacingArgs::lens`], [`refine`] and [`MarkedPanels::grids`].
@@ -81,10 +81,10 @@ impl PlacingArgs {
     }
 }
 
-/// Corners further off are better given again.
+/// Corners further off should be marked again.
 const MOST_PX: f64 = 100.0;
 
-/// Says how far corners were moved if `verbose`, and that there was nothing to move them to unless `quiet`.
+/// Reports displacements of corners if `verbose`, and sides without edges unless `quiet`.
 pub fn report(refinement: &Refinement, name: &str, verbose: bool, quiet: bool) {
     let missing = refinement.sides_without_edge.join(", ");
     if verbose {

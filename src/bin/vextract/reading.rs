@@ -1,4 +1,4 @@
-//! How photographs are read.
+//! Reads photographs.
 
 use std::path::{Path, PathBuf};
 
@@ -31,28 +31,29 @@ pub struct ReadingArgs {
     undo: Option<String>,
 }
 
-/// The stored number that means no light.
+/// The stored number for no light.
 #[derive(Clone, Copy)]
 enum BlackLevel {
     Stated(f64),
-    /// As the darkest pixels say.
+    /// From the darkest pixels.
     Darkest,
 }
 
-/// How photographs are to be read.
+/// Options for reading photographs.
 pub struct Reading {
     options: ReadOptions,
     black_level: Option<BlackLevel>,
 }
 
-/// A photograph to be measured, and its file's checksum; none of a pipe, which is another each time.
+/// A photograph to be measured, and its file's checksum; none for a pipe, which cannot be read again.
 pub struct Opened {
     pub photograph: Photograph,
     pub sha256: Option<String>,
 }
 
 impl Reading {
-    /// Opens a photograph to be measured. Its checksum is taken beside, as it may take as long as reading.
+    /// Opens a photograph to be measured. Its checksum is computed in parallel, as it may take as long as
+    /// reading.
     ///
     /// # Errors
     /// As [`Reading::open`].
@@ -86,7 +87,7 @@ impl Reading {
 
 impl ReadingArgs {
     /// # Errors
-    /// If what the camera did cannot be read.
+    /// If the camera's development cannot be read.
     pub fn reading(&self) -> Result<Reading> {
         let resolved = |level| match level {
             BlackLevel::Stated(stored) => Some(stored),

@@ -1,4 +1,4 @@
-//! Where the panels are in a photograph.
+//! Positions of the panels in a photograph.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -48,10 +48,11 @@ impl RegionArgs {
         self.regions.as_deref().is_some_and(|path| path.as_os_str() == "-")
     }
 
-    /// What was given.
+    /// The stated regions.
     ///
     /// # Errors
-    /// [`Error::Usage`] if flags are not corners or the margin is no distance, or as [`RegionsFile::open`].
+    /// [`Error::Usage`] if flags are not corners or the margin is not a distance, or as
+    /// [`RegionsFile::open`].
     pub fn resolved(&self) -> Result<ResolvedRegions> {
         if !(self.margin >= 0.0 && self.margin.is_finite()) {
             let problem = format!("{} is not a distance", self.margin);
@@ -85,7 +86,7 @@ impl RegionArgs {
     }
 }
 
-/// Refuses panels of a file that were not found, or not surely.
+/// Refuses panels from a file that were not detected, or with low confidence.
 fn check_detected(path: &Path, regions: &Regions) -> Result<()> {
     if let Some(reason) = &regions.missing {
         return Err(finding::not_found(path, reason));
@@ -109,7 +110,7 @@ pub struct ResolvedRegions {
 }
 
 impl ResolvedRegions {
-    /// Whether nothing was stated at all.
+    /// Whether nothing was stated.
     pub fn are_none(&self) -> bool {
         self.file.is_none() && self.flags == Regions::default()
     }
@@ -117,7 +118,7 @@ impl ResolvedRegions {
     /// Those of one photograph.
     ///
     /// # Errors
-    /// As [`RegionsFile::of`]; [`Error::Picture`] if they are panels that were not found, or not surely.
+    /// As [`RegionsFile::of`]; [`Error::Picture`] for panels that were not detected, or with low confidence.
     pub fn of(&self, path: &Path, photograph: &Photograph) -> Result<Regions> {
         let regions = self.of_any(path, photograph)?;
         if self.flags.panels.is_empty() {
@@ -126,7 +127,7 @@ impl ResolvedRegions {
         Ok(regions)
     }
 
-    /// The same for whom needs no panels.
+    /// The same if no panels are needed.
     ///
     /// # Errors
     /// As [`RegionsFile::of`].

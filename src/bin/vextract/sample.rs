@@ -1,4 +1,4 @@
-//! From a photograph to its sample.
+//! Makes the sample of a photograph.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -22,7 +22,7 @@ use super::reading::{Opened, Reading};
 use super::regions::ResolvedRegions;
 use super::{Args, balance, camera, finding, numbers, placing};
 
-/// What all photographs of a run have in common.
+/// Common settings of all photographs in a run.
 pub struct Setup<'a> {
     pub args: &'a Args,
     pub reading: Reading,
@@ -30,7 +30,7 @@ pub struct Setup<'a> {
     pub id: String,
     pub panels: BTreeMap<usize, Panel>,
     pub facet_count: usize,
-    /// Of a surface whose panels may hide each other.
+    /// For a surface whose panels may hide each other.
     pub sight: Option<Sight>,
     pub regions: ResolvedRegions,
     pub calibration: ResolvedCalibration,
@@ -105,7 +105,7 @@ impl Setup<'_> {
                 .iter()
                 .for_each(|line| cli::say("vextract", line));
         }
-        // a warning, as that of curves that stand in
+        // a warning, as for sensitivities of a stand-in
         if let Ok(camera) = self.scene.camera()
             && camera.stands_in.is_none()
             && let Some(line) = camera::other_than(&camera.name, path, &photograph)
@@ -116,8 +116,8 @@ impl Setup<'_> {
         Ok(sample)
     }
 
-    /// The calibration by what is marked. A detected chart is left out with a message where a stated one
-    /// would be an error.
+    /// The calibration by the marked target. A detected chart is dropped with a message where a stated one
+    /// would cause an error.
     fn calibrated(
         &self,
         regions: &Regions,
@@ -145,17 +145,17 @@ impl Setup<'_> {
             .map(|(calibration, record)| (calibration, record.with_confidence(Some(confidence)))))
     }
 
-    /// Sides along which no edge of the sheet lies; of other surfaces than a fold, panels go on at more sides
-    /// than one.
+    /// Sides along which no edge of the sheet lies; on surfaces other than a fold, panels continue on more
+    /// than one side.
     fn open_sides(&self, photograph: &Photograph, panels: &[Grid]) -> Result<Vec<String>> {
         let is_fold = self.scene.fold_if_one()?.is_some();
         Ok(if is_fold { open_sides(photograph, panels) } else { Vec::new() })
     }
 
-    /// A photograph's sample, or that of one that cannot be measured among others that can.
+    /// A photograph's sample, or the sample with an error of one that cannot be measured among several.
     ///
     /// # Errors
-    /// If the machine has no files left to open, which is no fault of the photograph's.
+    /// If the machine has run out of open files, which is not the photograph's fault.
     pub fn sample_or_error(&self, path: &Path, opened: Result<Opened>) -> Result<Sample> {
         self.sample(path, opened).or_else(|error| {
             if error.is_out_of_files() {
@@ -167,9 +167,9 @@ impl Setup<'_> {
         })
     }
 
-    /// A grey picture shows what a camera of one channel sees, and no other.
+    /// A grey picture requires a camera with one channel.
     fn check_colours(&self, path: &Path, photograph: &Photograph) -> Result<()> {
-        // none if no camera is named, and the first photograph, which would have named it, cannot be read
+        // none if no camera is stated and the first photograph, which would name it, is unreadable
         let Ok(camera) = self.scene.camera() else { return Ok(()) };
         let (seen, of_camera) = (photograph.channels(), camera.channels.len());
         if seen == of_camera {

@@ -12,28 +12,28 @@ use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
 use vfold::stream::{CalibrationRecord, Corners};
 use vfold::{Error, Result};
 
-/// Hot pixels do no harm; a patch of which a larger share is clipped is too bright.
+/// Hot pixels are harmless; a patch with a larger clipped fraction is too bright.
 const CLIPPED: f64 = 0.01;
-/// Residuals below this are those of a chart in its right order.
+/// Residuals below this indicate a chart in the right order.
 const GOOD_RESIDUAL: f64 = 0.05;
-/// A chart whose brightest patch has less is too dark to make a camera of.
+/// A chart with a darker brightest patch is too dark to determine a camera.
 const DARK: f64 = 0.02;
 
 /// A chart, or a white card as a chart of one patch.
 pub struct Target {
-    /// What it is, as the record says it.
+    /// Its name in the record.
     name: &'static str,
-    /// The flag that says where it is.
+    /// The flag that states its position.
     flag: &'static str,
     rows: usize,
     cols: usize,
-    /// Cosine of the angle at which the sun meets it.
+    /// Cosine of the incidence of sunlight on it.
     cos: f64,
     /// Name and reflectance, one number per waveband, row by row.
     patches: Vec<(String, Vec<f64>)>,
 }
 
-/// A photograph, and the light and lens through which it is seen.
+/// A photograph with its light and lens.
 pub struct View<'a> {
     pub path: &'a Path,
     pub photograph: &'a Photograph,
@@ -54,7 +54,7 @@ impl Target {
         Ok(Self { name, flag, rows, cols, cos, patches })
     }
 
-    /// Cosine of the angle at which the sun meets it.
+    /// Cosine of the incidence of sunlight on it.
     pub fn cos(&self) -> f64 {
         self.cos
     }
@@ -109,7 +109,7 @@ impl Target {
         Ok(seen.into_iter().zip(&self.patches).map(patch).collect())
     }
 
-    /// What the photograph shows of each patch.
+    /// The measurement of each patch.
     fn seen(
         &self,
         (path, photograph): (&Path, &Photograph),
@@ -133,7 +133,7 @@ impl Target {
         measured.into_iter().zip(&self.patches).map(patch).collect()
     }
 
-    /// The camera that saw this target between `corners` in a light of this power per waveband.
+    /// The camera that recorded this target between `corners`, in light with this power per waveband.
     pub fn camera(
         &self,
         of: (&Path, &Photograph),
@@ -203,7 +203,7 @@ impl Target {
     }
 }
 
-/// What a photograph shows of a patch, per channel.
+/// Measurement of a patch, per channel.
 struct Seen {
     mean: Vec<f64>,
     standard_error: Vec<f64>,

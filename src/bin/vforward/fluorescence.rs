@@ -1,4 +1,4 @@
-//! What the sheets send out beside what they reflect, as the flags say it.
+//! Emission of the sheets in addition to their reflection, from the flags.
 
 use vfold::forward::BispectralLight;
 use vfold::scene::Setting;
@@ -7,28 +7,28 @@ use vfold::{Error, Result};
 
 use super::Args;
 
-/// What sheets send out.
+/// The emission of sheets.
 pub enum Emission {
-    /// What they reflect, and nothing else.
+    /// None: reflection only.
     None,
-    /// Beside it a part of white's light, wherever light falls directly.
+    /// A fraction of white under the same light, wherever light falls directly.
     Part(Vec<f64>),
-    /// What their matrices make of these lights.
+    /// The response of their Donaldson matrices to these lights.
     Excited(Lights),
 }
 
-/// The lights of a scene, as far as their tables reach.
+/// The lights of a scene, over the full range of their tables.
 pub struct Lights {
     lamps: Vec<Spectrum>,
     sky: Spectrum,
 }
 
 impl Emission {
-    /// What the flags say, on the wavelengths of `grid`.
+    /// From the flags, on the wavelengths of `grid`.
     ///
     /// # Errors
-    /// [`Error::Usage`] for `--fluorescence` in several lights, in which one sheet sends out different parts;
-    /// as [`Common::one_radiance_factor`](vfold::cli::Common::one_radiance_factor).
+    /// [`Error::Usage`] for `--fluorescence` in several lights, in which the emitted fractions of one sheet
+    /// differ; as [`Common::one_radiance_factor`](vfold::cli::Common::one_radiance_factor).
     pub fn of(args: &Args, grid: &WavelengthGrid) -> Result<Self> {
         if !args.donaldson.is_empty() {
             return Lights::of(args).map(Self::Excited);
@@ -51,7 +51,7 @@ impl Lights {
         Ok(Self { lamps, sky })
     }
 
-    /// Checks that they are those of one picture.
+    /// Checks that there is only one picture.
     ///
     /// # Errors
     /// [`Error::Usage`] for several.
@@ -63,7 +63,7 @@ impl Lights {
         Ok(())
     }
 
-    /// The lights of the model's sources as a sheet takes them.
+    /// The lights of the model's sources as they excite a sheet.
     ///
     /// # Errors
     /// As [`BispectralLight::new`].
@@ -77,7 +77,7 @@ impl Lights {
         sources.iter().map(|light| BispectralLight::new(light, grid, sheet)).collect()
     }
 
-    /// The first of the lights that begins at longer wavelengths than those that excite a sheet.
+    /// The first of the lights that starts at longer wavelengths than those that excite a sheet.
     pub fn begins_late(&self, excited_from_nm: f64) -> Option<&Spectrum> {
         self.lamps.iter().chain([&self.sky]).find(|light| light.range_nm().0 > excited_from_nm)
     }

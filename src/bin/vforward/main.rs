@@ -1,4 +1,4 @@
-//! `vforward`: what a camera sees of a folded sheet.
+//! `vforward`: facet RGB of a folded sheet, as seen by a camera.
 
 mod fluorescence;
 mod nonuniform;
@@ -106,7 +106,7 @@ struct Args {
     common: Common,
 }
 
-/// What `--bounces` takes.
+/// The value of `--bounces`.
 #[derive(Clone, Copy)]
 enum BouncesArg {
     All,
@@ -171,7 +171,7 @@ fn bounces(text: &str) -> std::result::Result<BouncesArg, String> {
 }
 
 impl BouncesArg {
-    /// The bounces that count in `scene`.
+    /// The bounces included in `scene`.
     fn of(self, scene: &Scene) -> Result<Bounces> {
         Ok(match self {
             Self::All => Bounces::All,
@@ -181,7 +181,7 @@ impl BouncesArg {
     }
 }
 
-/// Records the wavebands that no sensor sees: the models leave them out.
+/// Records the wavebands to which no sensor responds: the models omit them.
 fn skip_unseen(args: &Args, scene: &mut Scene) -> Result<()> {
     let bands = scene.grid()?.len();
     let unseen = bands - Setting::of(scene)?.open_light()?.seen_bands().len();

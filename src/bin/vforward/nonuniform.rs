@@ -1,4 +1,4 @@
-//! `--facet-reflectance` on a fold, a mesh, or a kernel that is given.
+//! `--facet-reflectance` on a fold, a mesh, or an external kernel.
 
 use nalgebra::DMatrix;
 use vfold::Result;
@@ -8,10 +8,10 @@ use vfold::paper::{FoldKernel, form_factors, nonuniform};
 use vfold::scene::{ExternalKernel, Setting};
 use vfold::surfaces::kernel::SurfaceKernel;
 
-/// Direct light a patch of every source, and the camera's response to it.
+/// Direct light per patch for every source, and the camera's response to it.
 type Lights = Vec<(Vec<f64>, CameraResponse)>;
 
-/// A surface each of whose facets has a reflectance of its own.
+/// A surface with an individual reflectance for each facet.
 pub enum Nonuniform<'a> {
     Fold(FoldKernel, Lighting),
     Mesh(SurfaceKernel, Lights),
@@ -19,7 +19,7 @@ pub enum Nonuniform<'a> {
 }
 
 impl<'a> Nonuniform<'a> {
-    /// That of the scene, which may be of a kernel that is given.
+    /// The surface of the scene, possibly with an external kernel.
     pub fn of(setting: &Setting, external: Option<&'a ExternalKernel>) -> Result<Self> {
         let surface = match setting {
             Setting::Fold(fold) => return Ok(Self::Fold(form_factors(&fold.fold), fold.lighting()?)),

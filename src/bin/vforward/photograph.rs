@@ -1,4 +1,4 @@
-//! The photograph of what is folded.
+//! The simulated photograph.
 
 use nalgebra::DMatrix;
 use vfold::camera::CameraResponse;
@@ -14,7 +14,7 @@ use super::setup::Setup;
 use super::subject::{Sheet, Subject};
 
 impl Setup<'_> {
-    /// Takes the photograph that `--render` asks for, of the first sheet; where the panels are in it.
+    /// Takes the photograph of the first sheet requested by `--render`; returns the positions of its panels.
     pub fn photograph(&self, subject: &Subject) -> Result<Vec<(usize, Corners)>> {
         let (Some(path), Subject::Sheets { sheets, .. }) = (&self.args.render.render, subject) else {
             return Ok(Vec::new());
@@ -86,7 +86,7 @@ impl Setup<'_> {
         Ok(self.args.exposure * self.matt_rgb(model, sheet)?.0)
     }
 
-    /// The response of an eye that is adapted to the light.
+    /// The response of an eye adapted to the light.
     fn eye(&self) -> Result<CameraResponse> {
         let optics = &self.args.optics;
         let illuminant = optics.one_illuminant("give one with --render: a photograph has one light")?;

@@ -1,4 +1,4 @@
-//! The photograph that `--render` asks for.
+//! The photograph requested by `--render`.
 
 use std::path::PathBuf;
 
@@ -36,8 +36,8 @@ pub struct RenderArgs {
 
 impl RenderArgs {
     /// # Errors
-    /// [`Error::Usage`] for a camera that looks at nothing: a perfectly matt sheet sends facets the same
-    /// light from everywhere.
+    /// [`Error::Usage`] for a camera without a purpose: a perfectly matt sheet has the same facets from every
+    /// viewpoint.
     pub fn check(&self, is_seen: bool) -> Result<()> {
         if self.eye.is_none() || self.render.is_some() || is_seen {
             return Ok(());
@@ -66,7 +66,7 @@ impl RenderArgs {
         Viewpoint { eye, look_at, up, field_of_view_deg }
     }
 
-    /// Says which flags tell vextract where the panels are in the photograph, if one was taken.
+    /// Prints the flags that give vextract the panels' positions in the photograph, if one was taken.
     pub fn say_corners(&self, panels: &[(usize, Corners)], common: &Common) {
         let Some(path) = self.render.as_ref().filter(|_| !common.quiet && !panels.is_empty()) else { return };
         let flag = |(number, corners): &(usize, Corners)| {

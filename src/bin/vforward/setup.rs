@@ -1,4 +1,4 @@
-//! Samples of what is folded, in one scene.
+//! Computes samples in one scene.
 
 use std::path::{Path, PathBuf};
 
@@ -17,10 +17,10 @@ use super::fluorescence::Emission;
 use super::nonuniform::Nonuniform;
 use super::subject::{Sheet, Subject};
 
-/// Samples a thread that are computed before the first of them is written.
+/// Samples per thread that are computed before the first of them is written.
 const AHEAD: usize = 16;
 
-/// What the samples of one scene need.
+/// Common context of the samples of one scene.
 pub struct Setup<'a> {
     pub(super) args: &'a Args,
     pub(super) scene: &'a Scene,
@@ -29,7 +29,7 @@ pub struct Setup<'a> {
     pub(super) noise: Noise,
     pub(super) bounces: Bounces,
     pub(super) model: FacetModel,
-    /// What a sheet shows that is not perfectly matt.
+    /// A sheet that is not perfectly matt.
     sheet: Option<FoldedSheet>,
     emission: &'a Emission,
 }
@@ -61,7 +61,7 @@ impl<'a> Setup<'a> {
         Ok(Self { args, scene, setting, external, noise, bounces, model, sheet, emission })
     }
 
-    /// Writes one sample per sheet or file; the first says where its panels are `seen`.
+    /// Writes one sample per sheet or file; the first states the positions `seen` of its panels.
     pub fn samples(&self, subject: &Subject, seen: &[(usize, Corners)], out: &mut Output) -> Result<()> {
         match subject {
             Subject::Sheets { sheets, .. } => self.sheets(sheets, seen, out),
@@ -95,7 +95,7 @@ impl<'a> Setup<'a> {
         Ok((matt + folded.beyond(&albedo), truncation))
     }
 
-    /// Facet RGB at exposure 1 of a perfectly matt sheet.
+    /// Facet RGB at exposure 1 for a perfectly matt sheet.
     pub(super) fn matt_rgb(
         &self,
         model: &FacetModel,
@@ -114,8 +114,8 @@ impl<'a> Setup<'a> {
         })
     }
 
-    /// What the flat sheet sends out of white's light in the scene's, or in the first of several lights, if
-    /// it fluoresces.
+    /// The total radiance factor of the flat sheet in the scene's light, or in the first of several lights,
+    /// if it fluoresces.
     fn total_radiance_factor(&self, sheet: &Sheet) -> Result<Option<Vec<f64>>> {
         Ok(match (self.emission, &sheet.bispectral) {
             (Emission::Part(part), _) => {
@@ -130,7 +130,7 @@ impl<'a> Setup<'a> {
         })
     }
 
-    /// One after the other: each keeps all threads busy.
+    /// One after the other: each uses all threads.
     fn facets(&self, files: &[PathBuf], out: &mut Output) -> Result<()> {
         let surface = Nonuniform::of(&self.setting, self.external)?;
         for (n, path) in files.iter().enumerate() {
@@ -153,13 +153,13 @@ impl<'a> Setup<'a> {
         }
     }
 
-    /// A sample of what the camera sees, noise included, from facet RGB at exposure 1.
+    /// A sample from facet RGB at exposure 1, with noise.
     fn sample(&self, id: &str, rgb: DMatrix<f64>, stream: u64) -> Result<Sample> {
-        // A photograph has its own noise, pixel by pixel.
+        // a photograph has its own noise, pixel by pixel
         let noise = if self.args.render.render.is_some() { Noise::default() } else { self.noise };
         let clean = self.args.exposure * rgb;
         let sd = (!noise.is_none()).then(|| FacetValues::from(&clean.map(|signal| noise.sd_at(signal))));
-        // facet by facet, as noise is drawn
+        // facet by facet, in the order of the noise
         let mut noisy = clean.transpose();
         noise.add(noisy.as_mut_slice(), self.args.seed, stream);
         let mut sample = Sample::new(&self.scene.id()?, id)?;

@@ -1,4 +1,4 @@
-//! How the sheet reflects, beside its reflectance.
+//! Angular reflection of the sheet.
 
 use clap::Args;
 use vfold::sheet::{Family, Shape};
@@ -31,10 +31,10 @@ pub struct SheetArgs {
 }
 
 impl SheetArgs {
-    /// How the sheet reflects; none if it is perfectly matt.
+    /// The angular reflection of the sheet; none if it is perfectly matt.
     ///
     /// # Errors
-    /// [`Error::Usage`] if a number is out of its range.
+    /// [`Error::Usage`] if a number is out of range.
     pub fn shape(&self) -> Result<Option<Shape>> {
         let Self { specular_weight, specular_roughness, body_roughness_deg, sheen } = *self;
         let within = |flag, value: f64, most: f64| {
@@ -61,7 +61,7 @@ impl SheetArgs {
     }
 }
 
-/// Narrower reflections than those of this roughness are missed by the patches that light is exchanged
-/// between. Compared once with another program's transport between patches, facets away from the crease of a
-/// closed surface were 2 % apart at 0.25 and 7 % at 0.15.
+/// The patches that exchange light miss narrower reflections than those of this roughness. In a comparison
+/// with another program's transport between patches, facets away from the crease of a closed surface differed
+/// by 2 % at 0.25 and by 7 % at 0.15.
 const LEAST_ROUGHNESS: f64 = 0.25;

@@ -1,4 +1,4 @@
-//! What is folded, as the flags say it.
+//! The folded sheets, from the flags.
 
 use std::path::PathBuf;
 
@@ -10,9 +10,9 @@ use vfold::{Error, Result};
 use super::Args;
 use super::fluorescence::{Emission, Lights};
 
-/// What is folded.
+/// The folded sheets.
 pub enum Subject {
-    /// Sheets of one reflectance, each folded alone or beside the card.
+    /// Sheets with one reflectance, each folded alone or facing the card.
     Sheets {
         /// At least one.
         sheets: Vec<Sheet>,
@@ -26,12 +26,12 @@ pub enum Subject {
 pub struct Sheet {
     pub id: String,
     pub spectrum: ReflectanceRecord,
-    /// What it makes of other light, if that is known.
+    /// Its response to other light, if known.
     pub bispectral: Option<Bispectral>,
 }
 
 impl Subject {
-    /// What the flags name, on the wavelengths of `grid`.
+    /// From the flags, on the wavelengths of `grid`.
     pub fn of(args: &Args, grid: &WavelengthGrid, emission: &Emission) -> Result<Self> {
         if !args.facet_reflectance.is_empty() {
             return Ok(Self::Facets(args.facet_reflectance.clone()));
@@ -44,7 +44,7 @@ impl Subject {
         }
     }
 
-    /// The card beside the sheets, if there is one.
+    /// The card facing the sheets, if any.
     pub fn card(&self) -> Option<&ReferencePanel> {
         match self {
             Self::Sheets { card, .. } => card.as_ref(),
@@ -81,7 +81,7 @@ fn sheets(args: &Args, grid: &WavelengthGrid) -> Result<Subject> {
     Ok(Subject::Sheets { sheets, card })
 }
 
-/// The reflectances that belong to one panel.
+/// The reflectances of single panels.
 fn panels(args: &Args, grid: &WavelengthGrid) -> Result<[Option<Sheet>; 2]> {
     let card = args.reference_panel.iter().map(|spec| ("--reference-panel", 1, spec));
     let others = args.panel_reflectance.iter().map(|(panel, spec)| ("--panel-reflectance", *panel, spec));
@@ -95,7 +95,7 @@ fn panels(args: &Args, grid: &WavelengthGrid) -> Result<[Option<Sheet>; 2]> {
     Ok(panels)
 }
 
-/// The sheets of the matrices that `--donaldson` names, on the wavelengths of `grid`.
+/// The sheets from the matrices named by `--donaldson`, on the wavelengths of `grid`.
 ///
 /// # Errors
 /// As [`Donaldson::read`] and [`Donaldson::on`].

@@ -1,4 +1,4 @@
-//! The V-shaped fold, whose exchange has formulas of its own.
+//! The V-shaped fold, whose exchange has its own formulas.
 
 use std::path::Path;
 
@@ -16,15 +16,15 @@ use vfold::{Error, Result};
 
 use super::{Args, MethodName, SamplingName, SpacingName, regions, say_work};
 
-/// Facet means that may be this far off are no answer.
+/// Facet means with a larger error are useless.
 const USELESS: f64 = 0.05;
-/// Up to this angle light bounces more often between undivided panels than Lanczos' method follows, whatever
-/// their sides: facet means would be off by all of their light.
+/// Up to this angle light bounces more often between undivided panels than the Lanczos method can resolve,
+/// whatever their sides: facet means would be entirely wrong.
 const TOO_NARROW_DEG: f64 = 0.2;
 /// Samples of a Monte Carlo estimate.
 const SAMPLES: u32 = 10_000;
 
-/// Writes the scene of a fold, or what its kernel makes of the laws of light.
+/// Writes the scene of a fold, or the test of its kernel against the laws of light.
 pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     let Opened { fold, angle_sd_deg } = fold(args)?;
     let method = method(args)?;
@@ -70,7 +70,7 @@ fn scene(
     out.scene(&scene)
 }
 
-/// The sun where flags say it stands, and the sky.
+/// The sun in the direction stated by flags, and the sky.
 pub fn light(args: &Args, fold: &Fold) -> Result<Light> {
     if args.sky.is_infinite() {
         let flags = [("--tilt-deg", args.tilt_deg != 0.0), ("--slant-deg", args.slant_deg != 0.0)];
@@ -79,7 +79,7 @@ pub fn light(args: &Args, fold: &Fold) -> Result<Light> {
     Light::new(fold, args.tilt_deg, args.slant_deg, args.sky)
 }
 
-/// Prints what a kernel makes of the laws of light.
+/// Prints the test of a kernel against the laws of light.
 fn report(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<()> {
     let fold = match args.mesh {
         Some(Mesh::Patches(patches)) => fold.with_facets(patches)?,
@@ -100,7 +100,7 @@ fn report(args: &Args, fold: &Fold, method: Method, out: &mut Output) -> Result<
     if broken.is_empty() { Ok(()) } else { Err(Error::BrokenLaw(broken.join("; "))) }
 }
 
-/// Warns of an accuracy below what was expected, and refuses one below what was asked for.
+/// Warns of an accuracy below the expected one, and refuses one below the requested one.
 fn say_accuracy(args: &Args, method: Method, fold: &Fold, accuracy: &Accuracy) -> Result<()> {
     if let Some(source) = accuracy.kernel {
         warn_of_spread(args, method, source.entry_sd);
@@ -131,7 +131,7 @@ fn say_accuracy(args: &Args, method: Method, fold: &Fold, accuracy: &Accuracy) -
     Ok(())
 }
 
-/// The standard error of pairs of points misleads, and says so.
+/// Warns that the standard error of pairs of points is misleading.
 fn warn_of_spread(args: &Args, method: Method, entry_sd: Option<f64>) {
     if let (Method::MonteCarlo(estimate), Some(sd), false) = (method, entry_sd, args.common.quiet)
         && estimate.sampling() == Sampling::Area
@@ -170,17 +170,17 @@ fn method(args: &Args) -> Result<Method> {
     }
 }
 
-/// Angle of a fold of which nothing is stated, degrees.
+/// Default angle of a fold, degrees.
 const ANGLE_DEG: f64 = 45.0;
 
-/// A fold, and how exactly its angle is known.
+/// A fold, and the accuracy of its angle.
 pub struct Opened {
     pub fold: Fold,
-    /// Standard deviation of the angle, degrees, if a photograph gave it.
+    /// Standard deviation of the angle, degrees, if derived from a photograph.
     pub angle_sd_deg: Option<f64>,
 }
 
-/// The fold that flags and regions describe.
+/// The fold described by flags and regions.
 pub fn fold(args: &Args) -> Result<Opened> {
     let seen = args.regions.as_deref().map(|path| regions::seen(args, path)).transpose()?;
     let angle_deg = args.angle_deg.or(seen.map(|seen| seen.angle_deg)).unwrap_or(ANGLE_DEG);

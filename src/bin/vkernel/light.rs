@@ -1,4 +1,4 @@
-//! `--light`, `--sky-type`, `--zenith`: sources of light around any surface.
+//! `--light`, `--sky-type`, `--zenith`: light sources around any surface.
 
 use clap::Args;
 use vfold::cli::{pair, vector};
@@ -6,7 +6,7 @@ use vfold::geometry::{LightSource, StandardSky, Vec3};
 use vfold::surfaces::Shape;
 use vfold::{Error, Result};
 
-/// Where sun and zenith are if nothing is said.
+/// Default direction of sun and zenith.
 pub const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// Sources of light around any surface, a fold among them.
@@ -42,7 +42,7 @@ pub struct LightArgs {
     zenith: Option<[f64; 3]>,
 }
 
-/// What `--light` takes.
+/// The value of `--light`.
 #[derive(Clone, Copy)]
 enum LightArg {
     None,
@@ -51,30 +51,30 @@ enum LightArg {
     Area([f64; 3], [f64; 2], f64),
 }
 
-/// What `--sky-type` takes.
+/// The value of `--sky-type`.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum SkyType {
-    /// Alike in all directions.
+    /// Equal in all directions.
     Uniform,
-    /// That of a dull day.
+    /// An overcast sky.
     Overcast,
-    /// One of the CIE's.
+    /// A CIE standard sky.
     Standard(StandardSky),
 }
 
 impl LightArgs {
-    /// Whether there is more than a sun and a uniform sky.
+    /// Whether there are sources other than a sun and a uniform sky.
     pub fn is_present(&self) -> bool {
         !self.light.is_empty() || self.sky_type != SkyType::Uniform || self.zenith.is_some()
     }
 
-    /// Whether the lights themselves are stated, so that nothing else says where the sun stands.
+    /// Whether the lights are stated individually, so that no other flag defines the sun.
     pub fn states_lights(&self) -> bool {
         !self.light.is_empty()
     }
 
-    /// The sources around `shape`, among them a sky of irradiance `sky` if that is above 0, alone and of 1 if
-    /// it is infinite; the sun stands at `sun` if no light is stated.
+    /// The sources around `shape`, including a sky of irradiance `sky` if that is above 0, or a sky alone of
+    /// irradiance 1 if it is infinite; the sun is in direction `sun` if no light is stated.
     pub fn sources(&self, shape: &Shape, sky: f64, sun: [f64; 3]) -> Result<Vec<LightSource>> {
         if self.zenith.is_some() && self.sky_type == SkyType::Uniform {
             return Err(Error::usage("--zenith", "a uniform sky has none", "add --sky-type overcast"));
@@ -109,7 +109,7 @@ impl LightArgs {
         Ok(sources)
     }
 
-    /// A sky of this irradiance, in which the sun stands there.
+    /// A sky of this irradiance, with the sun in this direction.
     fn sky(&self, irradiance: f64, sun: [f64; 3]) -> Result<LightSource> {
         let zenith = self.zenith.unwrap_or(UP);
         match self.sky_type {
@@ -139,7 +139,7 @@ impl LightArg {
         }
     }
 
-    /// Direction to a sun.
+    /// Direction of a sun.
     fn sun(&self) -> Option<[f64; 3]> {
         match self {
             Self::Directional(towards, _) => Some(*towards),
@@ -148,7 +148,7 @@ impl LightArg {
     }
 }
 
-/// Mean of the facets' centres by area.
+/// Area-weighted mean of the facets' centres.
 fn middle(shape: &Shape) -> Vec3 {
     let area: f64 = shape.facets().map(vfold::surfaces::Polygon::area).sum();
     shape.facets().map(|facet| facet.area() * facet.centroid()).sum::<Vec3>() / area

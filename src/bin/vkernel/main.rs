@@ -157,7 +157,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if is_any { shape::write(args, out) } else { fold::write(args, out) }
 }
 
-/// With `--verbose`, what was solved and what was not.
+/// With `--verbose`, reports the work done and skipped.
 fn say_work(args: &Args, accuracy: &Accuracy, poles: usize, skipped: &[Skipped]) {
     if !args.common.verbose {
         return;

@@ -1,4 +1,4 @@
-//! A fold as a photograph shows it.
+//! A fold from a photograph.
 
 use std::path::Path;
 
@@ -8,29 +8,28 @@ use vfold::{Error, Result, cli};
 
 use super::Args;
 
-/// Width and depth of panels of which nothing is stated.
+/// Default width and depth of panels.
 pub const PANEL: (f64, f64) = (1.0, 1.0);
 
-/// What regions say of a fold.
+/// A fold derived from regions.
 #[derive(Clone, Copy)]
 pub struct Seen {
     pub angle_deg: f64,
-    /// Standard deviation of the angle, degrees, if it is known.
+    /// Standard deviation of the angle, degrees, if known.
     pub angle_sd_deg: Option<f64>,
     /// Width and depth of the panels.
     pub panel: (f64, f64),
 }
 
-/// An angle less certain than this, degrees, is none: `vestimate` follows angles no further than 6° from the
-/// one that is stated.
+/// Largest standard deviation of a usable angle, degrees: `vestimate` corrects a stated angle by at most 6°.
 const MOST_SD_DEG: f64 = 3.0;
-/// Angles further apart than this, in standard deviations, are not those of one fold.
+/// Angles further apart than this, in standard deviations, do not belong to one fold.
 const APART: f64 = 3.0;
 
-/// The fold that the regions of one photograph show.
+/// The fold in the regions of a single photograph.
 ///
 /// # Errors
-/// [`Error::Regions`] if there is none, or not surely, or its angle is not stated.
+/// [`Error::Regions`] if there is none, or its confidence is low, or its angle is not stated.
 pub fn seen(args: &Args, path: &Path) -> Result<Seen> {
     let name = path.display().to_string();
     let file = RegionsFile::open(path)?;
@@ -51,7 +50,7 @@ pub fn seen(args: &Args, path: &Path) -> Result<Seen> {
     }
 }
 
-/// Refuses regions of a photograph in which no fold was found, or not surely.
+/// Refuses regions of a photograph in which no fold was detected, or with low confidence.
 fn check_detected(name: &str, regions: &Regions) -> Result<()> {
     let remedy = "mark its corners with vextract --pick";
     if let Some(reason) = &regions.missing {
@@ -66,13 +65,13 @@ fn check_detected(name: &str, regions: &Regions) -> Result<()> {
     }
 }
 
-/// Depths of both panels over their width, if flags tell them.
+/// Depths of both panels relative to their width, if stated by flags.
 fn depths_by_flags(args: &Args) -> Option<[f64; 2]> {
     let (width, depth) = args.panel.or(args.panel1_depth.map(|_| PANEL))?;
     Some([depth / width, args.panel1_depth.unwrap_or(depth) / width])
 }
 
-/// What is written beside the corners.
+/// The values stated along with the corners.
 fn stated(regions: &Regions) -> Option<Seen> {
     let angle_deg = regions.angle_deg?;
     Some(Seen { angle_deg, angle_sd_deg: regions.angle_sd_deg, panel: panel(regions) })
@@ -82,14 +81,14 @@ fn panel(regions: &Regions) -> (f64, f64) {
     regions.panel.map_or((1.0, 1.0), |[width, depth]| (width, depth))
 }
 
-/// What the corners tell, of panels of these depths if they are known.
+/// The fold derived from the corners, for panels of these depths if known.
 fn by_corners(regions: &Regions, by_flags: Option<[f64; 2]>) -> std::result::Result<Seen, NoAngle> {
     let depths = by_flags.or_else(|| regions.panel.map(|[width, depth]| [depth / width; 2]));
     let FoldAngle { angle_deg, angle_sd_deg, depths } = regions.angle_by_corners(depths)?;
     Ok(Seen { angle_deg, angle_sd_deg: Some(angle_sd_deg), panel: (1.0, depths[0]) })
 }
 
-/// Says so if the angle that was stated is another than that of the photograph.
+/// Warns if the stated angle differs from that of the photograph.
 fn warn_if_apart(args: &Args, name: &str, seen: &Seen, stated_deg: f64) {
     let Seen { angle_deg, angle_sd_deg: Some(sd_deg), .. } = *seen else { return };
     if (stated_deg - angle_deg).abs() > APART * sd_deg && !args.common.quiet {
@@ -100,7 +99,7 @@ fn warn_if_apart(args: &Args, name: &str, seen: &Seen, stated_deg: f64) {
     }
 }
 
-/// Refuses an angle that corners leave open.
+/// Refuses an angle that the corners do not determine.
 fn check_certain(name: &str, seen: Seen) -> Result<Seen> {
     match seen.angle_sd_deg {
         Some(sd_deg) if sd_deg > MOST_SD_DEG => {

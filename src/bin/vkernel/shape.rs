@@ -1,5 +1,5 @@
-//! Any surface: read from a file, a fold of several creases or with curved panels, or a plain one among other
-//! lights than the sun and a uniform sky.
+//! Any surface: read from a file, a fold with several creases or curved panels, or a plain fold in light
+//! other than the sun and a uniform sky.
 
 use std::path::{Path, PathBuf};
 
@@ -20,12 +20,12 @@ use super::{Args, MethodName, say_work};
 
 /// Relative error of facet means.
 const TOLERANCE: f64 = 5e-3;
-/// Least tolerance: exchanges are kept in single precision.
+/// Least tolerance: the exchange is stored in single precision.
 const TOLERANCE_MIN: f64 = 1e-6;
 
-/// Facets of curved panels from which on the default tolerance takes half a minute or more.
+/// Number of facets of curved panels from which the default tolerance takes half a minute or more.
 const SLOW: usize = 100;
-/// A tolerance that curved panels reach on meshes of a sixteenth as many pairs.
+/// A tolerance that curved panels reach on meshes with a sixteenth of the pairs.
 const FAST_TOLERANCE: f64 = 0.01;
 
 /// Surfaces other than a V of flat panels.
@@ -61,7 +61,7 @@ pub struct ShapeArgs {
 }
 
 impl ShapeArgs {
-    /// Whether there is more than a V of flat panels.
+    /// Whether the surface is other than a V of flat panels.
     pub fn is_shape(&self) -> bool {
         self.shape.is_some() || self.folds != 1 || self.bow_deg != 0.0 || self.ridge_deg.is_some()
     }
@@ -105,7 +105,7 @@ pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     out.scene(&scene)
 }
 
-/// Writes the form factors between the facets, those of the solution if that is on facets.
+/// Writes the form factors between the facets: those of the solution, if it is on facets.
 fn save(path: &Path, shape: &Shape, solved: &Solved, mesh: Mesh, tolerance: f64) -> Result<()> {
     let made = match mesh {
         Mesh::Facets => None,
@@ -115,7 +115,7 @@ fn save(path: &Path, shape: &Shape, solved: &Solved, mesh: Mesh, tolerance: f64)
     write_matrix(path, shape.len(), shape.len(), |facet| kernel.matrix_row(facet))
 }
 
-/// Refuses flags that only a V of flat panels under the sun and a uniform sky knows.
+/// Refuses flags that apply only to a V of flat panels under the sun and a uniform sky.
 fn check(args: &Args) -> Result<()> {
     let (sun_is_elsewhere, remedy) =
         (args.shape.is_shape() || args.light.states_lights(), "give --light X,Y,Z towards the sun");
@@ -139,17 +139,17 @@ fn check(args: &Args) -> Result<()> {
     flags.into_iter().try_for_each(|(flag, flags, remedy)| cli::refuse([(flag, flags)], problem, remedy))
 }
 
-/// A surface among sources of light.
+/// A surface among light sources.
 struct Lit {
     surface: Surface,
     shape: Shape,
-    /// Standard deviation of a fold's angle, degrees, if a photograph gave it.
+    /// Standard deviation of a fold's angle, degrees, if derived from a photograph.
     angle_sd_deg: Option<f64>,
-    /// Where the sun stands if no light is stated.
+    /// Direction of the sun if no light is stated.
     sun: [f64; 3],
 }
 
-/// The surface that flags describe; what is odd about it goes to standard error.
+/// The surface described by flags; remarks on it go to standard error.
 fn lit(args: &Args) -> Result<Lit> {
     let ShapeArgs { shape: file, two_sided, folds, ridge_deg, bow_deg } = &args.shape;
     if !args.shape.is_shape() {
@@ -176,7 +176,7 @@ fn lit(args: &Args) -> Result<Lit> {
     Ok(Lit { surface: Surface::Mesh(shape.clone()), shape, angle_sd_deg: None, sun: UP })
 }
 
-/// Warns of an accuracy below what was expected, and refuses one below what was asked for.
+/// Warns of an accuracy below the expected one, and refuses one below the requested one.
 fn say_accuracy(args: &Args, solved: &Solved) -> Result<()> {
     if solved.direct_error > 0.0 && !args.common.quiet {
         let sampled =

@@ -1,10 +1,10 @@
-//! `--sky`: a number, the sky of a cloudless day, or the sky alone.
+//! `--sky`: a number, a clear sky, or the sky alone.
 
 use vfold::colorimetry::{Colorimeter, Observer};
 use vfold::spectrum::{ClearSky, Outside, Sun, WavelengthGrid};
 use vfold::{Error, Result};
 
-/// Parses how much light the sky gives beside the sun: a number, `sun:WHERE`, where the sun stands, or
+/// Parses the light of the sky relative to the sun: a number, `sun:WHERE`, the position of the sun, or
 /// `only`, which is infinite.
 ///
 /// # Errors
@@ -23,7 +23,7 @@ pub fn share(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
-/// Illuminance of level ground by the sky over that of a plane that faces the sun.
+/// Illuminance of level ground by the sky, relative to that of a plane facing the sun.
 fn of_clear_sky(place: &str) -> Result<f64> {
     let (sky, grid) = (ClearSky::usual(Sun::parse(place)?), WavelengthGrid::uniform(380.0, 780.0, 5.0)?);
     let (direct, diffuse) = (sky.direct()?, sky.diffuse()?);

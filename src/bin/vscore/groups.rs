@@ -1,4 +1,4 @@
-//! `--by FIELD`: samples that share the value of a field.
+//! `--by FIELD`: groups of samples with equal values of a field.
 
 use std::collections::HashMap;
 
@@ -6,16 +6,16 @@ use vfold::score::{Group, Summary};
 use vfold::stream::{Sample, Scene, Scenes};
 use vfold::{Error, Result};
 
-/// What samples without the field are grouped as.
+/// Name of the group of samples without the field.
 const NONE: &str = "(none)";
 
-/// All samples, and those of each value of a field.
+/// All samples, and those with each value of a field.
 pub struct Groups<'a> {
     field: Option<&'a str>,
-    /// What each has in the field.
+    /// The value of the field in each scene.
     scenes: Scenes<Option<String>>,
     all: Summary,
-    /// By value, in the order in which they came.
+    /// By value, in order of appearance.
     groups: Vec<Group>,
     places: HashMap<String, usize>,
     found: bool,
@@ -27,10 +27,10 @@ impl<'a> Groups<'a> {
         Self { field, scenes, all, groups: Vec::new(), places: HashMap::new(), found: false }
     }
 
-    /// Takes a scene of samples that follow.
+    /// Adds the scene of the samples that follow.
     ///
     /// # Errors
-    /// [`Error::Field`] if its field is not one value.
+    /// [`Error::Field`] if its field is not a single value.
     pub fn enter(&mut self, scene: &Scene) -> Result<()> {
         if let Some(field) = self.field {
             self.scenes.enter(scene, scene.fields.text_at(field)?);
@@ -66,7 +66,7 @@ impl<'a> Groups<'a> {
     /// The field and its groups, if samples are grouped.
     ///
     /// # Errors
-    /// [`Error::Field`] if no sample has the field, nor its scene.
+    /// [`Error::Field`] if neither a sample nor its scene has the field.
     pub fn found(&self) -> Result<Option<(&str, &[Group])>> {
         match self.field {
             Some(field) if !self.found => {

@@ -1,4 +1,4 @@
-//! `vscore`: how far estimates are from the truth.
+//! `vscore`: distances between estimates and the truth.
 
 mod groups;
 mod metric;
@@ -23,7 +23,7 @@ use vfold::score::{Metric, Summary};
 use vfold::spectrum::formats::{check_ending, write};
 use vfold::stream::{Kept, Output, Reader, Record, pipe, summary};
 
-/// Most samples that a drawing calls the worst.
+/// Most samples listed as the worst in a drawing.
 const WORST_MAX: usize = 10;
 
 /// Score estimated spectra against true ones
@@ -106,7 +106,7 @@ enum Condition {
 }
 
 impl Args {
-    /// Whether there is more to show of a sample than its scores.
+    /// Whether more than the scores of a sample is shown.
     fn draws(&self) -> bool {
         self.plot.is_some() || self.report.is_some()
     }
@@ -129,8 +129,8 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let (mut groups, mut measured) = (Groups::new(args.by.as_deref()), Vec::new());
     let mut gallery = gallery(args);
     let mut header = table.as_ref();
-    // Scoring a sample takes no longer than reading it: all are scored again, and the summary covers all of
-    // them.
+    // scoring a sample takes no longer than reading it: all are scored again, and the summary covers all of
+    // them
     pipe(&mut Reader::open(&args.samples)?, &scorer, Kept::none(), |record, _| {
         header.take().map_or(Ok(()), |table| table.header(out))?;
         match &record {
@@ -163,7 +163,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     gallery.as_ref().map_or(Ok(()), |gallery| draw(args, gallery, groups.all(), &scorer))
 }
 
-/// Where samples are kept for drawings, if there are any.
+/// The store of samples for drawings, if any.
 fn gallery(args: &Args) -> Option<Gallery> {
     match (&args.report, &args.plot) {
         (Some(_), _) => Some(Gallery::new(SECTIONS_MAX)),

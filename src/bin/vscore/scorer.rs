@@ -10,12 +10,12 @@ use vfold::{Error, Result};
 
 use super::{Args, Condition};
 
-/// Scores as the flags ask for.
+/// Scores as the flags request.
 pub struct Scorer<'a> {
     args: &'a Args,
     illuminants: Vec<Spectrum>,
     metrics: Vec<&'static Metric>,
-    /// The scores that every sample gets, in their order: of which metric, and what they are called.
+    /// The scores of every sample, in order: their metrics and names.
     pub scores: Vec<(&'static Metric, String)>,
     truth: Option<Vec<Spectrum>>,
 }
@@ -51,7 +51,7 @@ impl<'a> Scorer<'a> {
         Ok(Self { args, metrics, scores, illuminants, truth })
     }
 
-    /// The illuminant of colours that are shown.
+    /// The illuminant of displayed colours.
     pub fn first_illuminant(&self) -> &Spectrum {
         &self.illuminants[0]
     }
@@ -72,13 +72,13 @@ impl<'a> Scorer<'a> {
         }
     }
 
-    /// The true spectrum; none only where drawings are asked for, which have more to show.
+    /// The true spectrum; none only with drawings, which show more than scores.
     fn truth_of(&self, sample: &Sample, grid: &WavelengthGrid) -> Result<Option<ReflectanceRecord>> {
         let truth = match (self.truth.as_deref(), sample.truth()?) {
             (Some([one]), own) => self.measured(one, own, grid)?,
             (Some(spectra), own) => {
                 let id = sample.id();
-                // A column of a file is called after both: `truth:photo`.
+                // a column of a file has a compound name: `truth:photo`
                 let named = |spectrum: &&Spectrum| {
                     spectrum.name() == id
                         || spectrum.name().split_once(':').is_some_and(|(_, member)| member == id)
@@ -89,15 +89,15 @@ impl<'a> Scorer<'a> {
                 self.measured(found, own, grid)?
             }
             (None, Some(own)) => on_grid(own, grid)?,
-            // what is drawn may be its old scores
+            // the drawing may show its old scores
             (None, None) if self.args.draws() => return sample.scores().map(|_| None),
             (None, None) => return Err(Error::field("truth", "missing; give --truth SPEC")),
         };
         Ok(Some(truth))
     }
 
-    /// A spectrum that `--truth` names: under M1 all that the sheet sends out, which says nothing of what of
-    /// it is reflected.
+    /// A spectrum named by `--truth`: under M1 the total radiance factor, from which the reflected part
+    /// cannot be derived.
     fn measured(
         &self,
         spectrum: &Spectrum,
@@ -165,7 +165,7 @@ impl Transform for Scorer<'_> {
     }
 }
 
-/// The truth that a sample carries, on the wavelengths of `grid`.
+/// The truth in a sample, on the wavelengths of `grid`.
 fn on_grid(own: ReflectanceRecord, grid: &WavelengthGrid) -> Result<ReflectanceRecord> {
     let ReflectanceRecord { wavelengths_nm, reflectance, interpolation, total_radiance_factor } = own;
     let total = total_radiance_factor
@@ -179,7 +179,7 @@ fn on_grid(own: ReflectanceRecord, grid: &WavelengthGrid) -> Result<ReflectanceR
     })
 }
 
-/// What is to be scored.
+/// The metrics to be scored.
 fn metrics(args: &Args) -> Result<Vec<&'static Metric>> {
     let several = args.illuminant.len() > 1;
     if args.metrics.is_empty() {

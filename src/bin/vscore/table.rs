@@ -1,4 +1,4 @@
-//! Scores as a table for the eye.
+//! Scores as a table for people.
 
 use vfold::Result;
 use vfold::cli::one_line;
@@ -6,12 +6,12 @@ use vfold::message::is_formula;
 use vfold::score::{Group, Metric, Statistics, Summary};
 use vfold::stream::{Output, Sample};
 
-/// Columns of a terminal; a table is wider only if it has too many scores.
+/// Columns of a terminal; a table is wider only with too many scores.
 const WIDTH: usize = 80;
 /// Most and least columns for a sample's name.
 const NAME: [usize; 2] = [28, 12];
 
-/// A name as text wherever the table is pasted.
+/// A name that remains text wherever the table is pasted.
 fn cell(name: &str) -> String {
     let name = one_line(name);
     if is_formula(&name) { format!("'{name}") } else { name }
@@ -94,7 +94,7 @@ impl Table {
         self.named(name, &self.columns.iter().map(cell).collect::<String>())
     }
 
-    /// A name before the rest of its line; one that is too long has a line of its own.
+    /// A name in front of the rest of its line; one that is too long gets its own line.
     fn named(&self, name: &str, rest: &str) -> String {
         let width = self.name_width;
         if name.chars().count() > width {

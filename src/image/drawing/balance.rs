@@ -3,20 +3,20 @@
 use crate::image::numbers::Transfer;
 use crate::image::photograph::Photograph;
 
-/// Gains that make white of what most cameras have of daylight, green's being 1: the means of the measured
-/// cameras in D65.
+/// Gains that turn a typical camera's response to daylight into white, relative to green: means over the
+/// measured cameras in D65.
 const OF_MOST_CAMERAS: [f64; 3] = [2.4, 1.0, 1.33];
 
-/// What a camera makes of white.
+/// A camera's response to white.
 #[derive(Clone, Debug, PartialEq)]
 pub struct White {
-    /// A number a channel.
+    /// One number per channel.
     pub values: Vec<f64>,
-    /// Which camera in which light, in words.
+    /// Names the camera and the light.
     pub by: String,
 }
 
-/// Gains of the channels for display, and what is said of them beside the picture.
+/// Display gains of the channels, and the caption that describes them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Balance {
     pub(super) gains: [f64; 3],
@@ -24,8 +24,8 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// By what the camera makes of `white`, or as most cameras have daylight; none of a picture that is grey,
-    /// or was made for the eye.
+    /// From the camera's response to `white`, else the gains of most cameras in daylight; none for a picture
+    /// that is grey or was developed for the eye.
     #[must_use]
     pub fn of(photograph: &Photograph, white: Option<&White>) -> Self {
         let info = photograph.info();

@@ -1,19 +1,19 @@
-//! The mark of pictures for the eye, in which nothing can be measured: a sentence in plain letters, where
-//! other programs keep it when they save the picture again.
+//! Marks pictures made for the eye, in which nothing can be measured: a plain sentence, stored where other
+//! programs keep it when they save the picture again.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
 /// The sentence.
 pub(super) const MARK: &str = "A picture for the eye, made by vfold: not to be measured";
-/// Keywords of PNG texts for it: one becomes a TIFF's or JPEG's image description, the other their comment.
+/// Its keywords in PNG texts: a TIFF or JPEG gets one as its image description, the other as its comment.
 pub(super) const MARK_KEYWORDS: [&str; 2] = ["Description", "Comment"];
-/// Bytes at a file's beginning and at its end among which the sentence is: programs write texts before the
-/// pixels or after them.
+/// The sentence is searched for in this many bytes at either end of a file: programs write texts before or
+/// after the pixels.
 const SOUGHT: u64 = 1 << 16;
 
-/// Whether a file is a picture that vfold made for the eye: a preview, an overlay, a drawing or a render for
-/// the screen, also if another program saved it again and kept its description or comment. A file that cannot
-/// be read is none.
+/// Whether vfold made this file for the eye: a preview, an overlay, a drawing or a render for the screen,
+/// even if another program saved it again and kept its description or comment. False for a file that cannot
+/// be read.
 #[must_use]
 pub fn is_for_the_eye(file: &mut (impl Read + Seek)) -> bool {
     has_mark(file).unwrap_or(false)

@@ -1,4 +1,4 @@
-//! Pictures out: simulated photographs, previews, overlays, thumbnails.
+//! Picture output: simulated photographs, previews, overlays, thumbnails.
 
 mod balance;
 mod for_the_eye;

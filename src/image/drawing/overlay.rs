@@ -1,4 +1,4 @@
-//! A photograph with what was measured drawn over it.
+//! A photograph with the measured facets drawn over it.
 
 use std::path::Path;
 
@@ -12,14 +12,14 @@ use crate::image::placing::{Grid, Point, Quadrilateral};
 /// Longest side of an overlay, px; small photographs are enlarged in whole pixels.
 const LONGEST_PX: f64 = 1600.0;
 
-/// Colours of grids, in the order in which they are given, which colour-blind people can distinguish, too.
-/// Source: M. Okabe, K. Ito, *Color Universal Design* (2008).
+/// Colours of the grids in their order, distinguishable by colour-blind people. Source: M. Okabe, K. Ito,
+/// *Color Universal Design* (2008).
 const GRIDS: [[f64; 3]; 4] = [[0.34, 0.71, 0.91], [0.90, 0.62, 0.0], [0.0, 0.62, 0.45], [0.94, 0.89, 0.26]];
-/// Colour of the pixels that were left out.
+/// Colour of the excluded pixels.
 const LEFT_OUT: [f64; 3] = [1.0, 0.0, 0.2];
 const BLACK: [f64; 3] = [0.0; 3];
 
-/// Width of lines, px: between facets, and around them.
+/// Widths of the lines between facets and around them, px.
 const THIN_PX: f64 = 1.0;
 const THICK_PX: f64 = 2.5;
 /// Side of the square on the first corner of a grid, px.
@@ -27,14 +27,14 @@ const FIRST_CORNER_PX: f64 = 11.0;
 /// Colour and width of the crease, px.
 const CREASE: [f64; 3] = [1.0; 3];
 const CREASE_PX: f64 = 4.0;
-/// How far an end's name stands from the end, towards the other, in lengths of the crease.
+/// Distance of an end's name from that end, towards the other, in lengths of the crease.
 const END_INWARDS: f64 = 0.06;
 
-/// Writes the photograph with grids and left-out pixels over it, as PNG of at most 1600 px per side.
+/// Writes the photograph overlaid with grids and excluded pixels, as PNG of at most 1600 px per side.
 ///
-/// Grids are blue, orange, green and yellow in turn; panels carry their numbers, the crease is white, with
-/// the number of either end, and a square marks the first corner of each grid. Pixels that were left out are
-/// red. Colours are balanced for the eye, which a text beside the pixels says.
+/// Grids are blue, orange, green and yellow in turn. Panels carry their numbers; the crease is white, with
+/// the number of each end; a square marks the first corner of each grid. Excluded pixels are red. Colours are
+/// balanced for the eye, as a text chunk states.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
@@ -77,7 +77,7 @@ pub fn write_overlay(
             canvas.say(&format!("panel {number}"), canvas.at(grid.outline.to_image(0.5, 0.5)));
         }
     }
-    // panels that meet have the same crease: its names are set once, over all lines
+    // panels that meet share a crease: its names are drawn once, over all lines
     if let Some(grid) = grids.iter().find(|grid| grid.panel.is_some()) {
         for (name, u) in [("end 0", END_INWARDS), ("crease", 0.5), ("end 1", 1.0 - END_INWARDS)] {
             canvas.say(name, canvas.at(grid.outline.to_image(u, 0.0)));
@@ -87,7 +87,7 @@ pub fn write_overlay(
 }
 
 impl Canvas {
-    /// Where a point of the photograph is on the canvas.
+    /// Position on the canvas of a point of the photograph.
     fn at(&self, p: Point) -> Point {
         Point::new(p.x * self.scale, p.y * self.scale)
     }
@@ -129,7 +129,7 @@ impl Canvas {
         }
     }
 
-    /// Paints a quadrilateral; pixels on its sides by the part that it covers.
+    /// Paints a quadrilateral; pixels on its sides by the fraction that it covers.
     pub(super) fn fill(&mut self, corners: &[Point; 4], colour: [f64; 3], opacity: f64) {
         let quadrilateral = Quadrilateral::new(corners);
         let (height, width) = self.rgb.dim();
@@ -143,7 +143,7 @@ impl Canvas {
     }
 }
 
-/// A line of some width, longer than the way between its ends by that width; none if the ends are one.
+/// A line of this width, extended by half the width at each end; none if the ends coincide.
 fn stroke(p: Point, q: Point, width: f64) -> Option<[Point; 4]> {
     let length = p.distance(q);
     let (x, y) = ((q.x - p.x) / length * width / 2.0, (q.y - p.y) / length * width / 2.0);

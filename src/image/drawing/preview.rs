@@ -1,4 +1,4 @@
-//! A picture for the eye of any photograph: small, bright enough, sRGB.
+//! A small, sufficiently bright sRGB picture of any photograph.
 
 use std::path::Path;
 
@@ -10,13 +10,13 @@ use crate::Result;
 use crate::colorimetry::encode_srgb;
 use crate::image::photograph::{Photograph, Pixel};
 
-/// Longest side of a preview, px: it fills a screen.
+/// Longest side of a preview, px: fills a screen.
 const LONGEST_PX: usize = 1600;
-/// Part of the pixels that are darker than the one shown as white.
+/// Fraction of the pixels that are darker than the one shown as white.
 const DARKER_THAN_WHITE: f64 = 0.995;
-/// Keywords of the PNG texts that tell the photograph's own size, as `6000x4000`, its file, and what is said
-/// of the picture; `share/picker.html` reads them. Words on the picture would hide corners, and a line below
-/// it would move them in programs that know its size alone.
+/// Keywords of the PNG texts that hold the photograph's own size, as `6000x4000`, its file, and the caption;
+/// `share/picker.html` reads them. Words on the picture would hide corners, and a line below it would shift
+/// them in programs that know only its size.
 const SIZE_KEYWORD: &str = "vfold photograph size";
 const NAME_KEYWORD: &str = "vfold photograph name";
 pub(super) const CAPTION_KEYWORD: &str = "vfold caption";
@@ -24,19 +24,19 @@ pub(super) const CAPTION_KEYWORD: &str = "vfold caption";
 /// A picture to look at and draw on.
 #[derive(Debug, Clone)]
 pub(super) struct Canvas {
-    /// Its pixels for one of the photograph.
+    /// Its pixels per pixel of the photograph.
     pub scale: f64,
     /// By row and column, encoded for display, in [0, 1].
     pub rgb: Array2<[f64; 3]>,
     /// Width and height of the photograph, px.
     photographed: [usize; 2],
-    /// How colours are shown, in words.
+    /// Describes how colours are shown.
     caption: String,
 }
 
 impl Canvas {
-    /// The photograph's light averaged over each pixel of the canvas, `scale` of which there are for one of
-    /// its own, and balanced.
+    /// The photograph's light, balanced and averaged over each pixel of the canvas, which has `scale` pixels
+    /// per pixel of the photograph.
     pub fn new(photograph: &Photograph, scale: f64, balance: &Balance) -> Self {
         let photographed = [photograph.width(), photograph.height()];
         let [width, height] = photographed.map(|side| ((side as f64 * scale).round() as usize).max(1));
@@ -50,12 +50,12 @@ impl Canvas {
         Self { scale, rgb, photographed, caption: balance.caption.clone() }
     }
 
-    /// Writes it as PNG that tells the photograph's size, and how colours are shown.
+    /// Writes it as PNG, with texts for the photograph's size and the caption.
     pub fn write(&self, path: &Path) -> Result<()> {
         self.write_naming(path, None)
     }
 
-    /// As [`Self::write`], and the photograph's file if that is named.
+    /// As [`Self::write`], also naming the photograph's file, if known.
     fn write_naming(&self, path: &Path, photograph: Option<&Path>) -> Result<()> {
         let size = self.photographed.map(|side| side.to_string()).join("x");
         let name = photograph.map(|photograph| (NAME_KEYWORD, photograph.display().to_string()));
@@ -73,8 +73,8 @@ impl Canvas {
 /// Writes a small picture of a photograph for the eye, as PNG: at most 1600 px per side, its brightest parts
 /// white.
 ///
-/// The PNG tells the photograph's size in a text chunk, so that corners found in it can be given in the
-/// photograph's pixels, and `name`, its file, and how colours are shown in others.
+/// Text chunks hold the photograph's size, so that corners found in the PNG can be stated in the photograph's
+/// pixels, its file `name`, and how colours are shown.
 ///
 /// # Errors
 /// [`Error::File`](crate::Error::File) if the file cannot be written.

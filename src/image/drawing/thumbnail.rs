@@ -11,7 +11,7 @@ use image::{DynamicImage, ImageReader};
 use super::preview::CAPTION_KEYWORD;
 use crate::{Error, Result};
 
-/// Quality of the JPEG, of 100: thin lines stay clean.
+/// Quality of the JPEG, out of 100: thin lines stay clean.
 const QUALITY: u8 = 88;
 
 /// A JPEG.
@@ -23,7 +23,7 @@ pub struct Thumbnail {
     pub width: u32,
     /// Height, px.
     pub height: u32,
-    /// What a PNG that vfold made says of its colours.
+    /// The caption of a PNG that vfold made.
     pub caption: Option<String>,
 }
 
@@ -44,7 +44,7 @@ pub struct Thumbnail {
 pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
     let unreadable = |error: image::ImageError| Error::picture(path, error, "give a PNG, JPEG or TIFF");
     let no_file = |source| Error::file(path.display(), source);
-    // a named pipe would be waited for, maybe for ever
+    // opening a named pipe could block for ever
     if !path.metadata().map_err(no_file)?.is_file() {
         return Err(no_file(io::Error::other("not a regular file")));
     }
@@ -64,7 +64,7 @@ pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
     Ok(Thumbnail { jpeg, width: rgb.width(), height: rgb.height(), caption })
 }
 
-/// The caption beside the pixels of a PNG; none of other files.
+/// The caption in the text chunks of a PNG; none in other files.
 fn caption(file: impl BufRead + Seek) -> Option<String> {
     let png = png::Decoder::new(file).read_info().ok()?;
     let text = png.info().utf8_text.iter().find(|text| text.keyword == CAPTION_KEYWORD)?;

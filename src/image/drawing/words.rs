@@ -9,17 +9,17 @@ use crate::image::placing::Point;
 
 /// Height of a line, px.
 const LINE_PX: f32 = 24.0;
-/// Space round words, px.
+/// Margin around words, px.
 const MARGIN_PX: f64 = 5.0;
 
-/// The font of all drawings; none only if it cannot be read, and then nothing is said.
+/// The font of all drawings; none if it cannot be read, and then no words are drawn.
 fn font() -> Option<&'static FontRef<'static>> {
     static FONT: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
     FONT.get_or_init(|| FontRef::try_from_slice(dejavu::sans::regular()).ok()).as_ref()
 }
 
 impl Canvas {
-    /// Sets words, white on dark, about a point, or as near to it as the picture holds them.
+    /// Draws words, white on dark, centred on a point or as near to it as fits the picture.
     pub(super) fn say(&mut self, words: &str, middle: Point) {
         let Some(font) = font() else { return };
         let font = font.as_scaled(PxScale::from(LINE_PX));

@@ -1,7 +1,7 @@
-//! Pictures out: linear light for simulated photographs, 8 bits for the eye.
+//! Picture output: linear light for simulated photographs, 8 bits for the eye.
 //!
-//! A picture is written under a temporary name beside its own and renamed when whole: an interrupted run
-//! leaves the old file or none.
+//! A picture is written under a temporary name in the same folder and renamed when complete, so an
+//! interrupted run leaves the old file or none.
 
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -11,15 +11,15 @@ use crate::files::Saved;
 use crate::{Error, Result};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 
-/// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, as the name ends.
+/// Writes linear RGB as OpenEXR (32-bit float) or 16-bit TIFF or PNG, chosen by the file extension.
 ///
 /// # Arguments
 /// - `rgb`: row by row from the top, three numbers per pixel; integer formats store `round(65535 * value)`,
 ///   clipped to [0, 1].
 ///
 /// # Errors
-/// [`Error::Picture`] for another ending, a number that is not finite in single precision, or if there are
-/// not width x height x 3 numbers; [`Error::File`] if the file cannot be written.
+/// [`Error::Picture`] for another extension, a number that is not finite in single precision, or a count of
+/// numbers other than width x height x 3; [`Error::File`] if the file cannot be written.
 ///
 /// # Example
 /// ```
@@ -46,11 +46,11 @@ pub fn write_linear(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Re
     }
 }
 
-/// Writes RGB that is already encoded for display, in [0, 1], as 8-bit PNG that says it is for the eye; other
-/// values are clipped.
+/// Writes RGB already encoded for display, in [0, 1], as 8-bit PNG marked as made for the eye; other values
+/// are clipped.
 ///
 /// # Errors
-/// As [`write_linear`], whatever the name's ending.
+/// As [`write_linear`], whatever the extension.
 ///
 /// # Example
 /// ```
@@ -63,10 +63,10 @@ pub fn write_srgb_png(path: &Path, width: usize, height: usize, rgb: &[f64]) -> 
     write_srgb_png_with_texts(path, [width, height], rgb, Texts::default())
 }
 
-/// Bytes of a PNG of RGB that is already encoded for display, 8 bits a number.
+/// Bytes of a PNG of RGB already encoded for display, 8 bits per number.
 ///
 /// # Errors
-/// [`Error::Picture`] if there are not width x height x 3 numbers, or none.
+/// [`Error::Picture`] if the count of numbers is 0 or not width x height x 3.
 ///
 /// # Example
 /// ```
@@ -84,8 +84,8 @@ pub fn png_bytes(width: u32, height: u32, rgb: Vec<u8>) -> Result<Vec<u8>> {
     Ok(png)
 }
 
-/// What a PNG tells programs that read it, beside that it is for the eye: a keyword and its text, ASCII;
-/// keywords and texts of any letters.
+/// Texts of a PNG in addition to the mark: one keyword with ASCII text, and keywords with texts in any
+/// script.
 #[derive(Default)]
 pub(super) struct Texts<'a> {
     pub plain: Option<(&'a str, String)>,
@@ -109,7 +109,7 @@ pub(super) fn write_srgb_png_with_texts(
     saved.keep()
 }
 
-/// Writes a PNG that says it is sRGB, and for the eye.
+/// Writes a PNG marked as sRGB and as made for the eye.
 fn encode_for_the_eye(
     out: impl Write,
     picture: &ImageBuffer<Rgb<u8>, Vec<u8>>,
@@ -136,7 +136,7 @@ fn eight_bits(
     height: usize,
     rgb: &[f64],
 ) -> Result<ImageBuffer<Rgb<u8>, Vec<u8>>> {
-    // `as` cuts to the integer's range
+    // `as` clamps to the integer's range
     buffer(path, width, height, rgb, |value| (value * 255.0).round() as u8)
 }
 

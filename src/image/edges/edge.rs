@@ -1,10 +1,10 @@
 //! The straight edge near a side of a panel.
 //!
-//! The pixels around the side are looked at in pieces along it ([`super::piece`]): the residuals of all
-//! pieces and all channels together tell how likely each line is. A step and a kink are both found so, to a
-//! fraction of a pixel, in noise that hides them in any one row of pixels. A lens blurs all edges of a
-//! picture alike; which blur it is, all outer sides tell together: one side alone might take the blurred end
-//! of a shadow beside a sharp edge.
+//! Pixels around the side are examined in pieces along it ([`super::piece`]); the residuals of all pieces and
+//! channels together give the likelihood of each line. Steps and kinks are both located to a fraction of a
+//! pixel, even in noise that hides them in any single row of pixels. A lens blurs all edges of a picture
+//! alike, so the outer sides determine one blur jointly: a single side might prefer the blurred end of a
+//! nearby shadow to a sharp edge.
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 
@@ -14,31 +14,31 @@ use crate::image::placing::{Lens, Point, Quadrilateral};
 
 /// Pieces along a side.
 const PIECES: usize = 24;
-/// Part of a side that is left out at each end, beyond the reach: other edges are near.
+/// Fraction of a side omitted at each end, in addition to the reach, because other edges are near.
 const END: f64 = 0.03;
-/// Most of a side that is left out at each end.
+/// Largest fraction of a side omitted at each end.
 const LONGEST_END: f64 = 0.25;
-/// Pixels are looked at this much further away than an edge is looked for, px: they tell the light on both
-/// sides.
+/// Pixels up to this distance beyond the search range are used, px, to determine the light on both sides.
 const FLANK_PX: f64 = 10.0;
-/// A piece is at most this long, px: more pixels would tell more than the model is true.
+/// Longest piece, px: more pixels would be more precise than the model is accurate.
 const LONGEST_PX: f64 = 16.0;
-/// An edge explains its pixels better than smooth light by at least this, in log likelihood.
+/// Minimum gain in log likelihood of an edge over smooth light.
 const LEAST_GAIN: f64 = 20.0;
-/// How exactly a step is where the model of an edge has it, px, and a kink: light curves on both sides of a
+/// Accuracy of the model for the position of a step, px, and of a kink: light curves on both sides of a
 /// crease.
 const STEP_SD_PX: f64 = 0.015;
 const KINK_SD_PX: f64 = 0.5;
-/// An edge is elsewhere if its middle is further away than this, px and relative to the reach.
+/// An edge counts as elsewhere if its middle is further away than both of these, px and relative to the
+/// reach.
 const ELSEWHERE_PX: f64 = 1.5;
 const ELSEWHERE: f64 = 0.25;
-/// What a piece says against a line counts no more than this where something may hide the side there, as a
-/// finger does.
+/// Largest penalty in log likelihood that a piece may give a line where something, such as a finger, may hide
+/// the side.
 pub(in crate::image) const MOST_OF_PIECE: f64 = 60.0;
-/// A side speaks against a blur by at most this part of what it says for the best.
+/// A side votes against a blur by at most this fraction of its support for the best one.
 const MOST_AGAINST: f64 = 0.25;
 
-/// Where the edge at a side is: its distances from the side's two ends, px, as a normal distribution.
+/// Position of the edge at a side: its distances from the side's two ends, px, as a normal distribution.
 #[derive(Debug, Clone)]
 pub(in crate::image) struct Edge {
     /// Inverse of the covariance.
@@ -47,9 +47,9 @@ pub(in crate::image) struct Edge {
     pub pull: Vector2<f64>,
     /// Standard deviation at the less certain end.
     pub sd_px: f64,
-    /// By how much it explains the pixels better than smooth light, in log likelihood,
+    /// Gain in log likelihood over smooth light.
     pub gain: f64,
-    /// and better than the best edge elsewhere.
+    /// Gain in log likelihood over the best edge elsewhere.
     pub lead: f64,
 }
 
@@ -66,14 +66,14 @@ impl Side {
         Self { from, length, along: Vector2::new(to.x - from.x, to.y - from.y) / length }
     }
 
-    /// The direction in which distances from the side count.
+    /// The direction in which distances from the side are measured.
     pub fn across(&self) -> Vector2<f64> {
         Vector2::new(-self.along.y, self.along.x)
     }
 
-    /// What the pixels within `reach_px` of the side say of an edge under each of the blurs. `inner`: a place
-    /// on the sheet, if that ends here; `most_of_piece`: what a piece may say against a line, in log
-    /// likelihood.
+    /// Evidence of the pixels within `reach_px` of the side for an edge, under each of the blurs. `inner`: a
+    /// point on the sheet, if the sheet ends at this side; `most_of_piece`: largest penalty of a piece for a
+    /// line, in log likelihood.
     pub fn look(
         &self,
         photograph: &Photograph,
@@ -142,7 +142,7 @@ impl Side {
     }
 }
 
-/// What the pixels near a side say of an edge.
+/// Evidence of the pixels near a side for an edge.
 pub(super) struct Look {
     reach_px: f64,
     /// Whether the sheet ends at the side.
@@ -150,17 +150,16 @@ pub(super) struct Look {
     blurred: Vec<Blurred>,
 }
 
-/// What they say under one blur.
+/// That evidence under one blur.
 struct Blurred {
     blur: usize,
-    /// What speaks for the best line, in log likelihood, whatever the sheet is like inside of it: 0 if there
-    /// is none.
+    /// Log likelihood of the best line, whatever the sheet looks like inside of it; 0 if there is none.
     says: f64,
-    /// By how much each of [`lines`] explains all pieces better than smooth light, in log likelihood.
+    /// Gain of each of [`lines`] over smooth light, summed over all pieces, in log likelihood.
     likelihoods: Vec<f64>,
 }
 
-/// The blur that all outer sides say together, none of them louder for being longer or brighter.
+/// The blur that all outer sides favour together, none of them weighing more for being longer or brighter.
 pub(super) fn common_blur(looks: &[Look]) -> usize {
     let outer = || looks.iter().filter(|look| look.ends_here);
     let vote = |blur: &usize| {
@@ -176,7 +175,7 @@ pub(super) fn common_blur(looks: &[Look]) -> usize {
 }
 
 impl Look {
-    /// The edge, if there is one; under a blur, if the sheet ends there, else under the most probable.
+    /// The edge, if any: under this blur if the sheet ends at the side, else under the most probable blur.
     pub fn edge(&self, blur: usize) -> Option<Edge> {
         let usable = self.blurred.iter().filter(|blurred| !self.ends_here || blurred.blur == blur);
         let with_gain = usable.map(|blurred| (greatest(&blurred.likelihoods), &blurred.likelihoods));
@@ -194,17 +193,17 @@ impl Look {
     }
 }
 
-/// The greatest likelihood, 0 if all are less.
+/// The greatest likelihood, at least 0.
 fn greatest(likelihoods: &[f64]) -> f64 {
     likelihoods.iter().copied().fold(0.0, f64::max)
 }
 
-/// Lines past a side's ends, by the places that they pass there.
+/// Lines across the side's two ends, by the places at which they cross them.
 fn lines() -> impl Iterator<Item = [usize; 2]> + Clone {
     (0..PLACES * PLACES).map(|line| [line / PLACES, line % PLACES])
 }
 
-/// The likelihood of the best line that is not where the one with the `greatest` is.
+/// The likelihood of the best line away from the one with the `greatest`.
 fn elsewhere(likelihoods: &[f64], greatest: f64, reach_px: f64) -> f64 {
     let middle = |line: [usize; 2]| (offset(line[0], reach_px) + offset(line[1], reach_px)) / 2.0;
     let all = || lines().zip(likelihoods);
@@ -214,8 +213,7 @@ fn elsewhere(likelihoods: &[f64], greatest: f64, reach_px: f64) -> f64 {
     others.map(|(_, likelihood)| *likelihood).fold(0.0, f64::max)
 }
 
-/// By how much the edge that passes the side's ends at two places explains all pieces better than smooth
-/// light.
+/// Gain over smooth light of the edge that crosses the side's ends at two places, summed over all pieces.
 fn log_likelihood(gains: &[(f64, [f64; PLACES])], [from, to]: [usize; 2]) -> f64 {
     let of_piece = |(place, gains): &(f64, [f64; PLACES])| {
         let crossing = from as f64 + (to as f64 - from as f64) * place;
@@ -227,8 +225,8 @@ fn log_likelihood(gains: &[(f64, [f64; PLACES])], [from, to]: [usize; 2]) -> f64
 }
 
 impl Edge {
-    /// Mean and covariance of weighted lines; of lines all equally likely, or likely at both ends of the
-    /// reach, nothing is known.
+    /// Mean and covariance of weighted lines; no information if all lines are equally probable, or those at
+    /// both ends of the reach are.
     fn of(lines: impl Iterator<Item = (Vector2<f64>, f64)> + Clone, reach_px: f64, model_sd_px: f64) -> Self {
         let total: f64 = lines.clone().map(|(_, weight)| weight).sum();
         let mean = lines.clone().map(|(ends, weight)| ends * weight).sum::<Vector2<f64>>() / total;

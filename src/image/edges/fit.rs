@@ -1,13 +1,14 @@
-//! Least squares fits of light by its distance from a line, and sums from which they are made quickly.
+//! Least squares fits of light as a function of distance from a line, and sums from which they follow
+//! quickly.
 
 use nalgebra::{Matrix4, Matrix4x3, SVector, Vector3};
 
-/// Numbers that explain a piece: two planes of light, or a polynomial across it.
+/// Number of coefficients per piece and channel: two planes of light, or a polynomial across it.
 pub(super) const COEFFICIENTS: usize = 4;
-/// Numbers that explain one side of it.
+/// Number of coefficients for one side of it.
 const OF_A_SIDE: f64 = 2.0;
 
-/// Sums over some pixels, of each of which the distance from a line and the light are known.
+/// Sums over pixels whose distances from a line and light are known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sums {
     pub count: f64,
@@ -33,7 +34,7 @@ impl Default for Sums {
 }
 
 impl Sums {
-    /// One pixel more.
+    /// With one more pixel.
     pub fn with(&self, distance: f64, light: &Vector3<f64>) -> Self {
         Self {
             count: self.count + 1.0,
@@ -57,7 +58,7 @@ impl Sums {
         }
     }
 
-    /// The same pixels' distances from a line that is so far from the one before.
+    /// The same pixels, with distances from a line shifted by `distance`.
     pub fn seen_from(&self, distance: f64) -> Self {
         Self {
             distances: self.distances - distance * self.count,
@@ -68,8 +69,8 @@ impl Sums {
         }
     }
 
-    /// Sum of squares that a plane of light leaves in each channel; none if there is no one best, or too few
-    /// pixels.
+    /// Sum of squared residuals of a plane of light in each channel; none if the fit is not unique or pixels
+    /// are too few.
     pub fn residual(&self) -> Option<Vector3<f64>> {
         let spread = self.distance_squares - self.distances * self.distances / self.count;
         let known = self.count > 2.0 * OF_A_SIDE && spread > 1e-9 * self.distance_squares;
@@ -96,7 +97,7 @@ impl Default for Fit {
 }
 
 impl Fit {
-    /// Of a plane of light for each of two groups of pixels.
+    /// A plane of light for each of two groups of pixels.
     pub fn of_sides(near: &Sums, far: &Sums) -> Self {
         let mut fit = Self::default();
         for (first, sums) in [(0, near), (2, far)] {
@@ -110,16 +111,16 @@ impl Fit {
         fit
     }
 
-    /// One pixel more, of this light, which the fit explains as that combination.
+    /// Adds a pixel of this light, which the fit models by these basis values.
     pub fn add(&mut self, basis: &SVector<f64, COEFFICIENTS>, light: &Vector3<f64>) {
         self.normal += basis * basis.transpose();
         self.right += basis * light.transpose();
     }
 
-    /// Pixels that see part of either side: their distances from the edge, the parts of them beyond it, and
-    /// their light.
+    /// Adds pixels that see part of both sides: their distances from the edge, the fractions of them beyond
+    /// it, and their light.
     pub fn add_mixed<'a>(&mut self, pixels: impl Iterator<Item = (f64, f64, &'a Vector3<f64>)>) {
-        // of near by near, near by far and far by far: sums of 1, z and z²
+        // near by near, near by far and far by far: sums of 1, z and z²
         let (mut sums, mut right) = ([[0.0; 3]; 3], [Vector3::zeros(); COEFFICIENTS]);
         for (z, beyond, light) in pixels {
             let before = 1.0 - beyond;

@@ -1,4 +1,4 @@
-//! Where the picture has edges, and the corners between them.
+//! Edges in the picture, and the corners between them.
 
 mod edge;
 mod fit;

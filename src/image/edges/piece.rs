@@ -1,9 +1,9 @@
-//! Some pixels along a piece of a side, and how well an edge at each of several distances explains them.
+//! The pixels along a piece of a side, and how well an edge at each of several distances explains them.
 //!
-//! They are explained as two planes of light with the edge between them, mixed by area in the pixels that it
-//! crosses: a sheet may be as bright as the table, but not of its colour. What smooth light explains as well
-//! is no edge. Behind a sheet its shadow may end, too: up to the edge the sheet goes on as it is further
-//! inwards.
+//! The model is two planes of light with the edge between them, mixed by area in the pixels that the edge
+//! crosses: a sheet may be as bright as the table, but of another colour. A change that smooth light explains
+//! as well is no edge. Nor may the edge be the end of a sheet's shadow: up to its edge the sheet must
+//! continue as it is further inwards.
 
 use nalgebra::{SVector, Vector2, Vector3};
 
@@ -11,32 +11,32 @@ use super::fit::{COEFFICIENTS, Fit, Sums};
 
 /// Distances at which an edge is tried.
 pub(super) const PLACES: usize = 25;
-/// How far a lens may spread an edge to either side, px, beyond what a pixel does.
+/// Extra spread of an edge by the lens to either side, px, in addition to that of a pixel.
 const BLURS_PX: [f64; BLURS] = [0.0, 2.0, 4.0, 9.0];
 pub(super) const BLURS: usize = 4;
-/// The sheet is looked at no nearer than this to an edge of each blur, px, beyond [`CLEARANCE_PX`].
+/// Clearance between the sheet pixels examined and an edge, for each blur, px, in addition to
+/// [`CLEARANCE_PX`].
 const CLEAR_PX: [f64; BLURS] = [0.0, 0.0, 3.0, 6.75];
-/// Residuals below this part of the light count as nothing.
+/// Residuals below this fraction of the light count as zero.
 const EXACT: f64 = 1e-3;
-/// A sheet goes on up to its edge if its light varies there by no more than this, relative to further
-/// inwards.
+/// Largest variation of a sheet's light up to its edge, relative to that further inwards.
 const UNEVEN: f64 = 2.0;
-/// Pixels nearer to an edge than that may see what is beyond it, px.
+/// Pixels nearer to an edge than this may see beyond it, px.
 const CLEARANCE_PX: f64 = 2.0;
 
-/// Some pixels near a side.
+/// The pixels of a piece of a side.
 pub(super) struct Piece {
-    /// Where it is along the side, from 0 to 1.
+    /// Its position along the side, from 0 to 1.
     pub place: f64,
-    /// Distance from the side, px, and light, from one side to the other.
+    /// Distance from the side, px, and light, sorted by distance.
     pixels: Vec<(f64, Vector3<f64>)>,
-    /// Sums over the first of them, from none to all.
+    /// Sums over the first k of them, for k from none to all.
     sums: Vec<Sums>,
-    /// Channels that tell something of their own: the three of a grey picture are one.
+    /// Independent channels: the three of a grey picture count as one.
     channels: usize,
 }
 
-/// Distance from the side of a place that is tried.
+/// Distance of a tried place from the side.
 pub(super) fn offset(place: usize, reach_px: f64) -> f64 {
     reach_px * (2.0 * place as f64 / (PLACES - 1) as f64 - 1.0)
 }
@@ -53,8 +53,8 @@ impl Piece {
         Self { place, pixels, sums, channels: if is_grey { 1 } else { 3 } }
     }
 
-    /// Gain in log likelihood of an edge at each of the places over none; pixels are at most `width_px` from
-    /// the side.
+    /// Gain in log likelihood of an edge at each place over none; pixels are at most `width_px` from the
+    /// side.
     pub fn gains(&self, across: &Vector2<f64>, blur: usize, reach_px: f64, width_px: f64) -> [f64; PLACES] {
         let (count, exact) = (self.pixels.len() as f64, self.exact());
         let smooth = self.smooth_residual(width_px);
@@ -67,8 +67,8 @@ impl Piece {
         std::array::from_fn(|place| gain(place).filter(|gain| gain.is_finite()).unwrap_or(0.0))
     }
 
-    /// By how much the light inside an edge at each of the places is less likely than it would be if the
-    /// sheet went on up to there.
+    /// Loss in log likelihood of the light inside an edge at each place, compared with a sheet that continues
+    /// up to there.
     pub fn breaks(&self, inwards: f64, reach_px: f64, blur: usize) -> [f64; PLACES] {
         let within = |least: f64| {
             let sums = self.sums_beyond(least, inwards);
@@ -82,7 +82,7 @@ impl Piece {
         })
     }
 
-    /// Sums over the pixels of which `inwards`, 1 or -1, times the distance is more than `least`.
+    /// Sums over the pixels whose distance times `inwards`, 1 or -1, exceeds `least`.
     fn sums_beyond(&self, least: f64, inwards: f64) -> Sums {
         if inwards > 0.0 {
             let first = self.pixels.partition_point(|(distance, _)| *distance <= least);
@@ -92,7 +92,7 @@ impl Piece {
         }
     }
 
-    /// What a polynomial of third degree across the piece leaves.
+    /// Residual of a cubic polynomial across the piece.
     fn smooth_residual(&self, width_px: f64) -> Option<Vector3<f64>> {
         let mut fit = Fit::default();
         for (distance, light) in &self.pixels {
@@ -102,8 +102,8 @@ impl Piece {
         self.left_by(fit)
     }
 
-    /// What two planes of light leave that meet at a distance from the side. Of pixels that the edge does not
-    /// cross sums are known.
+    /// Residual of two planes of light that meet at this distance from the side. Pixels that the edge does
+    /// not cross enter through precomputed sums.
     fn edge_residual(&self, edge_px: f64, across: &Vector2<f64>, blur_px: f64) -> Option<Vector3<f64>> {
         let reach = edge_reach(across, blur_px);
         let first = self.pixels.partition_point(|(distance, _)| distance - edge_px <= -reach);
@@ -119,14 +119,15 @@ impl Piece {
         self.left_by(fit)
     }
 
-    /// Sum of squares that a fit leaves in each channel; none if there is no one best, or too few pixels.
+    /// Sum of squared residuals of a fit in each channel; none if the fit is not unique or pixels are too
+    /// few.
     fn left_by(&self, fit: Fit) -> Option<Vector3<f64>> {
         let explained = fit.normal.cholesky()?.solve(&fit.right).component_mul(&fit.right).row_sum_tr();
         let squares = self.sums[self.pixels.len()].light_squares;
         (self.pixels.len() > 2 * COEFFICIENTS).then_some((squares - explained).sup(&Vector3::zeros()))
     }
 
-    /// Sums of squares that count as nothing.
+    /// Sums of squares that count as zero.
     fn exact(&self) -> Vector3<f64> {
         let brightest = self.pixels.iter().fold(Vector3::zeros(), |most, (_, light)| light.abs().sup(&most));
         brightest.map(|light: f64| self.pixels.len() as f64 * (EXACT * light).powi(2))
@@ -138,19 +139,18 @@ impl Piece {
     }
 }
 
-/// Sides of a pixel across a line with this unit normal, the longer first, if it saw by `blur_px` more to all
-/// sides.
+/// Extents across a line with this unit normal of a pixel widened by `blur_px`, the longer first.
 fn spread(normal: &Vector2<f64>, blur_px: f64) -> [f64; 2] {
     [normal.amax() + blur_px, normal.amin().max(1e-3) + blur_px]
 }
 
-/// The distance from which on a pixel does not see across a line.
+/// The distance from a line beyond which a pixel does not see across it.
 fn edge_reach(normal: &Vector2<f64>, blur_px: f64) -> f64 {
     spread(normal, blur_px).iter().sum::<f64>() / 2.0
 }
 
-/// Part of a pixel beyond a line with this unit normal, its centre lying `z` beyond it, if it saw by
-/// `blur_px` more to all sides.
+/// Fraction of a pixel, widened by the blur of `blur_px`, that lies beyond a line with this unit normal when
+/// its centre is `z` beyond it.
 fn share_beyond(z: f64, normal: &Vector2<f64>, blur_px: f64) -> f64 {
     let [wide, narrow] = spread(normal, blur_px);
     let ramp = |x: f64| x.max(0.0).powi(2) / 2.0;

@@ -1,10 +1,10 @@
-//! Corners moved to where the picture has edges.
+//! Moves corners to the edges in the picture.
 //!
-//! Along every side of the panels the light changes: at the outer sides to the background, at the crease by a
-//! step, where the panels differ, or by a kink, where they are alike. Each side is moved to where that change
-//! explains its pixels best ([`super::edge`]), with a covariance that says how well it is known, and the
-//! corners to where the sides meet. All is one least squares problem: the crease of a dark sheet, which noise
-//! hides, still ends where the other sides meet.
+//! Light changes along every side of a panel: at the outer sides to the background, at the crease by a step
+//! if the panels differ or a kink if they look alike. Each side moves to where that change best explains its
+//! pixels ([`super::edge`]), with a covariance, and the corners move to where the sides meet. One least
+//! squares problem covers all: even the crease of a dark sheet, hidden by noise, ends where the other sides
+//! meet.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -15,29 +15,29 @@ use crate::image::photograph::Photograph;
 use crate::image::placing::{Homography, Lens, Point};
 use crate::{Error, Result};
 
-/// Where a panel was seen, and which of its corners it shares.
+/// Position of a panel in the picture, and the corners that it shares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Marked {
     /// Its number.
     pub panel: usize,
     /// Its corners, by the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS).
     pub corners: [Point; 4],
-    /// A number for each corner, from 0 on, the same for the same corner of several panels.
+    /// A number for each corner, from 0 on, equal for a corner shared by several panels.
     pub joints: [usize; 4],
 }
 
 /// Corners after refinement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
-    /// Corners of every panel, in the order in which they were given.
+    /// Corners of every panel, in the order of the input.
     pub panels: Vec<[Point; 4]>,
     /// How far each was moved, px.
     pub moved_px: Vec<[f64; 4]>,
-    /// Sides at which no edge was found: they were left where they are, but for what their neighbours tell.
+    /// Sides at which no edge was found: they moved only with their neighbours.
     pub sides_without_edge: Vec<String>,
 }
 
-/// A side: its name, the corners that it joins, and another corner of its panel, if there is no sheet beyond
+/// A side: its name, the corners that it joins, and another corner of its panel if there is no sheet beyond
 /// it.
 struct Ends {
     name: String,
@@ -49,26 +49,26 @@ struct Ends {
 /// The sides of a panel from corner to corner.
 const SIDES: [&str; 4] = ["crease", "end 1", "outer side", "end 0"];
 
-/// What is found at one side moves the ends of others, so that they are looked at again.
+/// Each side moves the ends of others, so all are examined again in every round.
 const ROUNDS: usize = 6;
-/// Each round looks this much nearer than the one before, and more finely,
+/// Each round searches a range this much narrower than the one before, and more finely,
 const NEARER: f64 = 0.4;
-/// but not nearer than this many standard deviations.
+/// but not narrower than this many standard deviations.
 const LEAST_SDS: f64 = 3.0;
 
-/// As far as people click beside a corner, px.
+/// How far people click from a corner, px.
 pub const REFINED_WITHIN_PX: f64 = 6.0;
 
 /// Moves the corners of panels to the edges around them.
 ///
 /// # Arguments
-/// - `panels`: where they were seen, and which corners are shared.
-/// - `lens`: what bends the picture.
-/// - `reach_px`: how far from a given side an edge is looked for, above 0.
+/// - `panels`: their positions in the picture, and the corners that they share.
+/// - `lens`: distortion of the picture.
+/// - `reach_px`: search distance from each stated side, above 0.
 ///
 /// # Errors
-/// [`Error::Corners`] for corners that no panel has, [`Error::Usage`] if two panels do not have a corner that
-/// they share in one place.
+/// [`Error::Corners`] for corners that no panel can have, [`Error::Usage`] if two panels place a shared
+/// corner differently.
 ///
 /// # Example
 /// ```
@@ -90,8 +90,8 @@ pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px:
     refine_in_sight(photograph, panels, lens, reach_px, f64::INFINITY)
 }
 
-/// As [`refine`], each piece of a side saying no more than that against a line, in log likelihood: something
-/// may hide it.
+/// As [`refine`], with each piece's penalty for a line limited to `most_of_piece`, in log likelihood, because
+/// something may hide it.
 pub(in crate::image) fn refine_in_sight(
     photograph: &Photograph,
     panels: &[Marked],
@@ -114,21 +114,21 @@ pub(in crate::image) fn refine_in_sight(
     })
 }
 
-/// Panels after so many rounds of refinement, and what was found along their sides: those of the first panel,
-/// then those of the others that it does not share, each from the crease on.
+/// Panels after refinement, and the edges along their sides: those of the first panel, then those of the
+/// others that it does not share, each starting from the crease.
 pub(in crate::image) struct Settled {
-    /// Corners of every panel, in the order in which they were given.
+    /// Corners of every panel, in their input order.
     pub panels: Vec<[Point; 4]>,
-    /// Edges within the reach of the given sides.
+    /// Edges within the reach of the original sides.
     pub first_edges: Vec<Option<Edge>>,
-    /// Edges at the sides where they are now.
+    /// Edges at the sides' present positions.
     pub edges: Vec<Option<Edge>>,
-    /// The number of the picture's blur; none after no round.
+    /// Number of the picture's blur; none after no round.
     pub blur: Option<usize>,
 }
 
-/// As [`refine_in_sight`], in so many rounds, with all that was found; under a blur of the picture, by
-/// number, if that is known.
+/// As [`refine_in_sight`], for this many rounds and with all intermediate results; `blur` is the picture's,
+/// by number, if known.
 pub(in crate::image) fn settle(
     photograph: &Photograph,
     panels: &[Marked],
@@ -147,7 +147,7 @@ pub(in crate::image) fn settle(
     for round in 0..rounds {
         let look = |(side, reach): (&Ends, &f64)| {
             let inner = side.inner.map(|corner| corners[corner]);
-            // the light of a kink bends over more than the lens blurs
+            // light near a kink bends over a wider range than the lens blurs
             let blurs = match known_blur {
                 Some(blur) if inner.is_some() => vec![blur],
                 Some(blur) => vec![blur, (blur + 1).min(BLURS - 1)],
@@ -172,7 +172,7 @@ pub(in crate::image) fn settle(
     Ok(Settled { panels: panels.collect(), first_edges, edges, blur: known_blur })
 }
 
-/// The sides of panels, those of two panels once.
+/// The sides of panels, a shared one once.
 fn sides(panels: &[Marked]) -> Vec<Ends> {
     let mut sides: Vec<Ends> = Vec::new();
     let crease = |panel: &Marked| [panel.joints[0], panel.joints[1]];
@@ -193,7 +193,7 @@ fn sides(panels: &[Marked]) -> Vec<Ends> {
     sides
 }
 
-/// Every corner once, in the middle of where its panels have it.
+/// Every corner once, at the mean of its panels' positions for it.
 fn joined(panels: &[Marked], reach_px: f64) -> Result<Vec<Point>> {
     let seen = || panels.iter().flat_map(|panel| panel.joints.into_iter().zip(panel.corners));
     let count = seen().map(|(joint, _)| joint + 1).max().unwrap_or(0);
@@ -210,7 +210,7 @@ fn joined(panels: &[Marked], reach_px: f64) -> Result<Vec<Point>> {
     (0..count).map(place).collect()
 }
 
-/// Where the corners are if the sides lie as the edges say, each weighted by what is known of it; the
+/// The corners at which the sides meet if they lie along the edges, each weighted by its information; the
 /// `marked` corners count as known to within the reach.
 fn meeting_point(
     marked: &[Point],
@@ -228,7 +228,7 @@ fn meeting_point(
     });
     for (&Ends { from, to, .. }, edge) in sides.iter().zip(edges) {
         let Some(edge) = edge else { continue };
-        // a corner's move shifts the side by its part across it
+        // moving a corner shifts the side by the component across it
         let across = Side::new(corners[from], corners[to]).across();
         for (i, corner) in [from, to].into_iter().enumerate() {
             let mut pull = right.fixed_rows_mut::<2>(2 * corner);

@@ -1,5 +1,5 @@
-//! The most probable folds, their sides moved to where edges explain the pixels best, and what tells whether
-//! all corners are right.
+//! The most probable folds, their sides moved to the edges that best explain the pixels, and the clues to
+//! whether all corners are right.
 
 use rayon::prelude::*;
 
@@ -11,29 +11,29 @@ use crate::image::edges::{Edge, MOST_OF_PIECE, Marked, Settled, settle};
 use crate::image::photograph::Photograph;
 use crate::image::placing::{Lens, Point};
 
-/// Hypotheses that are looked at closely.
+/// Hypotheses that are examined closely.
 const TRIED: usize = 4;
-/// Rounds in which their sides are moved: they need not be exact.
+/// Rounds of moving their sides, which need not be exact.
 const ROUNDS: usize = 2;
-/// How far an edge is looked for, relative to the panels' size, and least and most of it, px.
+/// Search distance for an edge, relative to the panels' size, and its limits, px.
 const REACH: f64 = 0.06;
 const REACH_PX: [f64; 2] = [3.0, 8.0];
-/// Candidates this near to each other are one fold, relative to their size, and such far ones are rivals.
+/// Candidates nearer to each other than the first, relative to their size, are the same fold; further apart
+/// than the second, rivals.
 const SAME: f64 = 0.015;
 const RIVAL: f64 = 0.05;
-/// The log odds of a rival when there is none.
+/// Log odds assigned to a missing rival.
 const NO_RIVAL: f64 = -10.0;
 
 /// A fold whose sides lie along edges.
 pub(super) struct Candidate {
     /// In pixels of the reduced picture.
     pub outline: Outline,
-    /// What tells whether all corners are right.
+    /// Clues to whether all corners are right.
     pub clues: [f64; CLUES],
 }
 
-/// The folds that a reduced picture may show, of those that `may_be` it, and the most probable of them
-/// refined.
+/// The folds that a reduced picture may show and `may_be` accepts, and the most probable of them refined.
 pub(super) fn candidates(
     reduced: &Reduced,
     may_be: impl Fn(&Outline) -> bool,
@@ -46,7 +46,7 @@ pub(super) fn candidates(
     let Some((first, others)) = hypotheses[..TRIED.min(hypotheses.len())].split_first() else {
         return (hypotheses, Vec::new());
     };
-    // the picture's blur is that of its most probable fold
+    // the most probable fold determines the picture's blur
     let first = refine(first, None);
     let blur = first.as_ref().and_then(|first| first.blur);
     let others: Vec<Refined> = others.par_iter().filter_map(|other| refine(other, blur)).collect();
@@ -61,9 +61,9 @@ struct Refined {
     now: Hypothesis,
     edges: Vec<Option<Edge>>,
     first_edges: Vec<Option<Edge>>,
-    /// How far the furthest corner was moved, px.
+    /// Displacement of the corner that moved most, px.
     moved_px: f64,
-    /// The number of the blur of its sides.
+    /// Number of its sides' blur.
     blur: Option<usize>,
 }
 
@@ -84,7 +84,7 @@ impl Refined {
     }
 }
 
-/// What tells whether all corners of the `n`th are right.
+/// Clues to whether all corners of the `n`th are right.
 fn clues(all: &[Refined], n: usize) -> [f64; CLUES] {
     let this = &all[n];
     let size = this.now.outline.size_px();
@@ -122,7 +122,7 @@ fn clues(all: &[Refined], n: usize) -> [f64; CLUES] {
 }
 
 impl Outline {
-    /// Its panels as they are refined.
+    /// Its panels, in the form for refinement.
     pub fn marked(&self) -> [Marked; 2] {
         let [a, b] = self.points();
         [
@@ -131,7 +131,7 @@ impl Outline {
         ]
     }
 
-    /// The fold of two panels that have a crease in common.
+    /// The fold of two panels that share a crease.
     pub fn of_panels([a, b]: [[Point; 4]; 2]) -> Self {
         Self([a[0], a[1], a[2], a[3], b[2], b[3]].map(|p| Place::new(p.x, p.y)))
     }

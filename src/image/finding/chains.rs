@@ -1,4 +1,4 @@
-//! Straight lines of pixels that are brightest, or steepest, across the line.
+//! Straight chains of pixels that are locally brightest, or steepest, across the line.
 
 use super::outline::Place;
 use super::plane::Plane;
@@ -10,7 +10,7 @@ pub(super) struct Segment {
     pub to: Place,
     /// Mean strength of its pixels.
     pub strength: f64,
-    /// Part of its length that has pixels, from 0 to 1.
+    /// Fraction of its length covered by pixels, from 0 to 1.
     pub cover: f64,
 }
 
@@ -20,7 +20,7 @@ impl Segment {
     }
 }
 
-/// Strength of an edge at every pixel, and the unit way across it.
+/// Strength of an edge at every pixel, and the unit vector across it.
 pub(super) struct EdgeMap {
     width: usize,
     height: usize,
@@ -28,15 +28,15 @@ pub(super) struct EdgeMap {
     across: Vec<[f32; 2]>,
 }
 
-/// Neighbours in a chain differ by less than this in direction: cosine of 22.5 degrees.
+/// Largest difference in direction between neighbours in a chain: the cosine of 22.5 degrees.
 const ALIKE: f32 = 0.924;
-/// A pixel of a chain is at most this far from its line, px,
+/// Largest distance of a chain's pixel from its line, px,
 const OFF_PX: f64 = 1.5;
-/// once the line is known from this many pixels.
+/// once at least this many pixels determine the line.
 const ENOUGH: usize = 8;
-/// Pixels of a chain are at most this far from each other in x and y, px.
+/// Largest gap between pixels of a chain in x and y, px.
 const NEXT_PX: usize = 2;
-/// The greatest strength lies at most this far from its pixel's centre, px.
+/// Largest distance of the strength's maximum from its pixel's centre, px.
 const MOST_SUBPIXEL: f32 = 0.6;
 
 impl EdgeMap {
@@ -50,8 +50,8 @@ impl EdgeMap {
         Self::new([xx, yy, xy], |mean, half, [x, y]| ((half - mean).max(0.0), [-y, x]))
     }
 
-    /// `of_eigen` makes strength and the way across of the mean of the eigenvalues, half their difference,
-    /// and the greater one's vector.
+    /// `of_eigen` computes strength and direction across from the mean of the eigenvalues, half their
+    /// difference, and the eigenvector of the larger.
     fn new([xx, yy, xy]: [&Plane; 3], of_eigen: impl Fn(f32, f32, [f32; 2]) -> (f32, [f32; 2])) -> Self {
         let width = xx.width;
         let pixel = |((xx, yy), xy): ((&f32, &f32), &f32)| {
@@ -67,7 +67,7 @@ impl EdgeMap {
         Self { width, height: strength.len() / width, strength, across }
     }
 
-    /// Straight chains of at least so many pixels that are at least so strong.
+    /// Straight chains of at least `least_pixels` pixels with at least `least_strength`.
     pub fn chains(&self, least_strength: f32, least_pixels: usize) -> Vec<Segment> {
         let mut order: Vec<usize> =
             (0..self.strength.len()).filter(|k| self.is_crest(*k, least_strength)).collect();
@@ -78,7 +78,7 @@ impl EdgeMap {
         order.iter().filter_map(grow).collect()
     }
 
-    /// Strengths one pixel to either side across the edge; none at the picture's edge.
+    /// Strengths one pixel away to either side of the edge; none at the picture's edge.
     fn neighbours(&self, k: usize) -> Option<[f32; 2]> {
         let (x, y) = ((k % self.width) as f32, (k / self.width) as f32);
         let [nx, ny] = self.across[k];
@@ -100,13 +100,13 @@ impl EdgeMap {
         Some([at(x - nx, y - ny)?, at(x + nx, y + ny)?])
     }
 
-    /// Whether a pixel is stronger than both beside it.
+    /// Whether a pixel is stronger than its neighbours on both sides.
     fn is_crest(&self, k: usize, least: f32) -> bool {
         let strength = self.strength[k];
         strength >= least && self.neighbours(k).is_some_and(|[a, b]| a <= strength && b < strength)
     }
 
-    /// Where exactly the edge crosses a pixel.
+    /// Sub-pixel position at which the edge crosses a pixel.
     fn crossing(&self, k: usize) -> Place {
         let centre = Place::new((k % self.width) as f64 + 0.5, (k / self.width) as f64 + 0.5);
         let Some([a, b]) = self.neighbours(k) else { return centre };
@@ -116,7 +116,7 @@ impl EdgeMap {
         centre + Place::from(self.across[k].map(|n| f64::from(n * offset)))
     }
 
-    /// The chain that a pixel belongs to.
+    /// The chain that grows from a pixel.
     fn grow(&self, first: usize, free: &mut [bool], least_pixels: usize) -> Option<Segment> {
         free[first] = false;
         let (mut waiting, mut places, mut line) = (vec![first], Vec::new(), Moments::default());
@@ -165,7 +165,7 @@ struct Moments {
     weight: f64,
     sum: Place,
     squares: [f64; 3],
-    /// Cosines and sines of twice the angle of the ways across.
+    /// Cosines and sines of twice the angle of the directions across.
     doubled: [f32; 2],
 }
 

@@ -1,4 +1,4 @@
-//! What each pixel says about steps and ridges of light, in any direction.
+//! Evidence of each pixel for steps and ridges of light in any direction.
 //!
 //! Steps are the structure tensor of all channels together (S. Di Zenzo, *A note on the gradient of a
 //! multi-image*, 1986), bright ridges the second derivatives of their sum: a crease between panels that look
@@ -9,12 +9,12 @@ use rayon::prelude::*;
 use super::outline::Place;
 use super::plane::Plane;
 
-/// A step of the square root of light per pixel that counts half, and a ridge.
+/// Strengths of a step and of a ridge that score one half, in square roots of light per pixel.
 const HALF_STEP: f64 = 0.006;
 const HALF_RIDGE: f64 = 0.004;
-/// Part of a side at either end that is not looked at: other sides begin there.
+/// Fraction of a side omitted at either end: other sides begin there.
 const END: f64 = 0.05;
-/// Pieces of a side of which each has to have an edge.
+/// Pieces of a side, each of which needs an edge.
 const PIECES: usize = 6;
 
 /// Symmetric tensors of every pixel: xx, yy and xy of steps, of fine curvature and of coarse curvature.
@@ -30,11 +30,11 @@ pub(super) struct Support {
     /// As a step, and as a ridge.
     pub step: f64,
     pub ridge: f64,
-    /// Of the piece with least of an edge, step or ridge.
+    /// Of the piece with the weakest edge, step or ridge.
     pub weakest: f64,
 }
 
-/// The structure tensor of planes blurred by so many px: xx, yy and xy.
+/// The structure tensor of planes blurred by `sigma_px`: xx, yy and xy.
 pub(super) fn steps(channels: &[Plane; 3], sigma_px: f32) -> [Plane; 3] {
     // Scharr's operator
     let (slope, smooth) = ([-1.0, 0.0, 1.0], [3.0 / 32.0, 10.0 / 32.0, 3.0 / 32.0]);
@@ -52,7 +52,7 @@ pub(super) fn steps(channels: &[Plane; 3], sigma_px: f32) -> [Plane; 3] {
     [sum(0, 0), sum(1, 1), sum(0, 1)]
 }
 
-/// Second derivatives of a plane blurred by so many px, times that: xx, yy and xy.
+/// Second derivatives of a plane blurred by `sigma_px`, times `sigma_px`: xx, yy and xy.
 pub(super) fn curvatures(plane: &Plane, sigma_px: f32) -> [Plane; 3] {
     let blurred = plane.blurred(sigma_px);
     let curve = [sigma_px, -2.0 * sigma_px, sigma_px];
@@ -70,7 +70,8 @@ impl Evidence {
         Self { width, height: pixels.len() / width, pixels }
     }
 
-    /// Strength of a step and of a ridge across the unit way `across` at a place; none outside the picture.
+    /// Strength of a step and of a ridge at a place, across the unit vector `across`; none outside the
+    /// picture.
     #[inline]
     pub fn at(&self, place: Place, across: Place) -> Option<(f64, f64)> {
         let (x, y) = ((place.x - 0.5) as f32, (place.y - 0.5) as f32);
@@ -97,8 +98,8 @@ impl Evidence {
         Some((f64::from(along(&tensor[..3]).max(0.0).sqrt()), f64::from((-along(&tensor[3..])).max(0.0))))
     }
 
-    /// Strength of a step and how strongly light bends down across the unit way `across`, seen coarsely, in
-    /// the pixel at a place.
+    /// Strength of a step and downward curvature of light across the unit vector `across`, at coarse scale,
+    /// in the pixel at a place.
     pub fn coarse_at(&self, place: Place, across: Place) -> Option<(f64, f64)> {
         let inside = place.x >= 0.0 && place.y >= 0.0;
         let (x, y) = (place.x as usize, place.y as usize);
@@ -112,7 +113,7 @@ impl Evidence {
         Some((along(0).max(0.0).sqrt(), -along(6)))
     }
 
-    /// How well an edge lies along a side: at each of `places` along it the best of several `offsets_px`
+    /// How well an edge lies along a side: at each of `places` along it, the best of several `offsets_px`
     /// across it counts.
     pub fn support(&self, (from, to): (Place, Place), places: usize, offsets_px: &[f64]) -> Support {
         let length = (to - from).norm();
@@ -143,7 +144,7 @@ impl Evidence {
         Support { step: steps / count, ridge: ridges / count, weakest }
     }
 
-    /// Part of a quadrilateral's inside that has a stronger step on it than `least`.
+    /// Fraction of a quadrilateral's inside with steps stronger than `least`.
     pub fn inner_edges(&self, quad: &super::outline::Quad, least: f64) -> f64 {
         const ACROSS: usize = 7;
         let (mut seen, mut edges) = (0.0, 0.0);

@@ -1,29 +1,28 @@
-//! What speaks for a fold and against it.
+//! Features for and against a fold.
 
 use super::evidence::{Evidence, Support};
 use super::light::{LogLight, PanelLight};
 use super::outline::{Outline, Quad};
 
-/// Numbers that tell folds from what is none.
+/// Number of features that distinguish folds from anything else.
 pub(super) const FEATURES: usize = 30;
-/// A step inside a panel is stronger than this.
+/// Least strength of a step inside a panel.
 const INNER_STEP: f64 = 0.03;
 
-/// What is seen of a fold.
+/// Properties of a fold as seen.
 struct Seen {
     sides: [Support; 7],
     light: [PanelLight; 2],
-    /// The larger part of a panel's inside with edges on it.
+    /// Fraction of a panel's inside with edges on it, the larger of the two.
     inner_edges: f64,
-    /// How far the panels are from parallelograms, the worse of the two.
+    /// Departure of the panels from parallelograms, the larger of the two.
     skew: f64,
     size_px: f64,
-    /// How unequal the panels' depths are.
+    /// Absolute logarithm of the ratio of the panels' depths.
     depths: f64,
 }
 
-/// What speaks for a fold and against it; [`FEATURES`] numbers, of which logarithms open up the ends of
-/// scales.
+/// The [`FEATURES`] for and against a fold; logarithms expand the ends of scales.
 pub(super) fn features(fold: &Outline, evidence: &Evidence, light: &LogLight) -> [f64; FEATURES] {
     Seen::of(fold, evidence, light).features()
 }
@@ -100,7 +99,7 @@ fn greater([a, b]: [f64; 2]) -> f64 {
     a.max(b)
 }
 
-/// How far a quadrilateral is from a parallelogram, relative to its first side.
+/// Departure of a quadrilateral from a parallelogram, relative to its first side.
 fn skew(quad: &Quad) -> f64 {
     (quad[1] - quad[0] - quad[2] + quad[3]).norm() / (quad[1] - quad[0]).norm()
 }

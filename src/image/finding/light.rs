@@ -1,4 +1,4 @@
-//! The light of a panel: smooth, of one colour, and rising or falling towards the crease.
+//! The light of a panel: smooth, of one colour, and monotonic towards the crease.
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
@@ -7,18 +7,18 @@ use super::plane::Plane;
 use super::reduced::Reduced;
 use crate::image::placing::{Point, square_to_quadrilateral};
 
-/// Places across a panel that are looked at, each way.
+/// Sampled places across a panel, in each direction.
 const ACROSS: usize = 12;
 const PLACES: usize = ACROSS * ACROSS;
-/// Smooth light: a polynomial of third degree away from the crease, of second degree along it.
+/// Terms of smooth light: a cubic polynomial across the crease, a quadratic one along it.
 const TERMS: usize = 7;
-/// Light below this counts as this: its logarithm would be noise.
+/// Light is clamped to at least this: below, its logarithm is noise.
 const LEAST: f32 = 1e-3;
-/// Blur before light is read, px.
+/// Blur before light is sampled, px.
 const BLUR_PX: f32 = 1.0;
-/// Fewest places of a panel that have to be in the picture.
+/// Fewest places of a panel in the picture.
 const FEWEST: usize = 50;
-/// No departure from smooth light counts for more.
+/// Limit of a departure from smooth light.
 const MOST_UNEVEN: f64 = 0.5;
 
 /// The logarithm of a picture's light in each channel.
@@ -28,7 +28,7 @@ pub(super) struct LogLight {
     values: Vec<[f32; 3]>,
 }
 
-/// What the light of a panel is like; logarithms of light throughout.
+/// Properties of a panel's light, all in logarithms.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct PanelLight {
     /// How much brighter it is at the crease than at the outer side.
@@ -37,18 +37,18 @@ pub(super) struct PanelLight {
     pub unevenness: f64,
     /// Red and blue over green.
     pub colour: [f64; 2],
-    /// How much that changes from the outer third to the crease's, the larger of the two.
+    /// Change of that between the outer third and the third at the crease, the larger of the two.
     pub colour_change: f64,
-    /// Part of the way from the crease outwards on which light rises, of all changes.
+    /// Rise of light from the crease outwards, as a fraction of all changes.
     pub wrong_way: f64,
     pub level: f64,
-    /// Mean light along the crease's third.
+    /// Mean light near the crease.
     pub at_crease: f64,
-    /// Part of the panel in the picture.
+    /// Fraction of the panel in the picture.
     pub seen: f64,
 }
 
-/// Distance from the crease and place along it of the places that are looked at, from 0 to 1.
+/// Distance from the crease and position along it of a sampled place, each from 0 to 1.
 fn place(k: usize) -> (f64, f64) {
     let part = |n: usize| (n as f64 + 0.5) / ACROSS as f64;
     (part(k / ACROSS), part(k % ACROSS))
@@ -76,8 +76,8 @@ impl LogLight {
             .then(|| Vector3::from(self.values[y * self.width + x].map(f64::from)))
     }
 
-    /// The light at places of a panel that are in the picture, with their numbers. The panel's first side is
-    /// the crease.
+    /// The light at those places of a panel that are in the picture, with their numbers. The panel's first
+    /// side is the crease.
     fn samples(&self, quad: &Quad) -> Vec<(usize, Vector3<f64>)> {
         let to_image: Matrix3<f64> =
             square_to_quadrilateral(&quad.map(|corner| Point::new(corner.x, corner.y)));
@@ -89,7 +89,7 @@ impl LogLight {
         (0..PLACES).filter_map(sample).collect()
     }
 
-    /// How much a quadrilateral's light departs from smooth light, mean over places and channels.
+    /// Mean absolute departure of a quadrilateral's light from smooth light, over places and channels.
     pub fn unevenness(&self, quad: &Quad) -> f64 {
         let samples = self.samples(quad);
         if samples.len() < FEWEST {
@@ -145,7 +145,7 @@ impl LogLight {
     }
 }
 
-/// Smooth light, which a few places with something else on them do not change.
+/// Smooth light, insensitive to a few places that show something else.
 fn robust_fit(samples: &[(usize, f64)]) -> Option<SVector<f64, TERMS>> {
     let mut weights = vec![1.0; samples.len()];
     let mut fit = SVector::zeros();
@@ -165,7 +165,7 @@ fn robust_fit(samples: &[(usize, f64)]) -> Option<SVector<f64, TERMS>> {
     Some(fit)
 }
 
-/// The middle one of some numbers; 0 of none.
+/// The median; 0 if there are no numbers.
 pub(super) fn median(mut numbers: Vec<f64>) -> f64 {
     if numbers.is_empty() {
         return 0.0;

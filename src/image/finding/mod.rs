@@ -1,20 +1,20 @@
-//! Where a fold is in a photograph, and how sure that is.
+//! Locates a fold in a photograph, with a confidence.
 //!
-//! A fold is two quadrilaterals with one side in common; what tells it from two other things that touch is
-//! its own physics: either panel is one sheet of one colour, its light rises smoothly to the crease (or
-//! falls, under an overcast sky), both look alike there, and around them is an edge. All six corners are
-//! found at once:
+//! A fold is two quadrilaterals with a common side. Its physics distinguishes it from two other things that
+//! touch: each panel is one sheet of one colour, its light rises smoothly to the crease (or falls, under an
+//! overcast sky), both look alike there, and edges surround them. All six corners are found together:
 //!
-//! 1. [`reduced`], [`plane`], [`evidence`]: a small copy, and steps and ridges of light in all its channels;
+//! 1. [`reduced`], [`plane`], [`evidence`]: a reduced copy, and steps and ridges of light in all its
+//!    channels;
 //! 2. [`chains`], [`segments`]: straight edges and ridges;
-//! 3. [`quads`], [`pairs`], [`snap`]: quadrilaterals on them, pairs of these, and variants of where their
-//!    crease is;
-//! 4. [`light`], [`score`], [`search`]: the most probable of these against "no fold", a logit over what is
-//!    seen of each;
+//! 3. [`quads`], [`pairs`], [`snap`]: quadrilaterals on them, pairs of these, and variants with other
+//!    creases;
+//! 4. [`light`], [`score`], [`search`]: the most probable of these against "no fold", a logit over their
+//!    features;
 //! 5. [`candidates`], [`trust`]: the best ones refined, and the probability that all corners are right.
 //!
-//! The fold that is most probably right is then refined in the whole picture. A colour chart is found by
-//! other means, in [`chart`].
+//! The fold that is most probably right is then refined at full resolution. [`chart`] finds colour charts by
+//! other means.
 
 mod candidates;
 mod chains;
@@ -50,50 +50,51 @@ use trust::confidence;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DetectedFold {
     /// Corners of panels 0 and 1, px of the upright picture, in the order of
-    /// [`PANEL_CORNERS`](crate::image::PANEL_CORNERS). Of an upright crease end 0 is below and panel 0 on the
-    /// left; of a level one panel 0 is the lower.
+    /// [`PANEL_CORNERS`](crate::image::PANEL_CORNERS). If the crease is upright, end 0 is at the bottom and
+    /// panel 0 on the left; if it is level, panel 0 is the lower one.
     pub panels: [[Point; 4]; 2],
-    /// Probability that all six corners are within 3 % of a panel's side of where they should be.
+    /// Probability that all six corners are within 3 % of a panel's side of their true positions.
     pub confidence: f64,
 }
 
 impl DetectedFold {
-    /// From this confidence on a fold is measured without a look at it: of pictures of sheets left out of the
-    /// fit none of so much was wrong.
+    /// From this confidence on a fold is measured without review: among pictures left out of the fit, none at
+    /// or above it was wrong.
     pub const SURE: f64 = 0.97;
 
-    /// Whether it may be measured without a look at it.
+    /// Whether it may be measured without review.
     #[must_use]
     pub fn is_sure(&self) -> bool {
         self.confidence >= Self::SURE
     }
 }
 
-/// Why no fold was found.
+/// The reason why no fold was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoFold {
-    /// Nothing looks like one.
+    /// Nothing resembles one.
     #[error("nothing in the picture looks like a whole fold")]
     Nothing,
-    /// One seems to go on beyond the picture.
+    /// One seems to continue beyond the picture.
     #[error("the fold is cut by the edge of the picture")]
     Cut,
 }
 
-/// Guesses below this confidence are not worth showing.
+/// Guesses below this confidence are not shown.
 const LEAST_CONFIDENCE: f64 = 0.1;
-/// A corner that lies further beyond the edge of the reduced picture, px, is not in it.
+/// A corner further beyond the edge of the reduced picture, px, is outside it.
 const BEYOND_PX: f64 = 0.5;
-/// What may be no fold with a corner this near to the edge, px, may be one that goes on beyond it.
+/// An unsure fold with a corner this near to the edge, px, may continue beyond it.
 const AT_EDGE_PX: f64 = 3.0;
-/// How far edges are looked for in the whole picture, px and in pixels of the reduced one.
+/// Search distance for edges at full resolution: as many px plus as many pixels of the reduced picture, and
+/// its minimum.
 const REACH_PX: f64 = 2.0;
 const LEAST_REACH_PX: f64 = 4.0;
 
 /// Finds the fold in a photograph.
 ///
 /// # Arguments
-/// - `lens`: what bends the picture; its sides are straight without it.
+/// - `lens`: distortion of the picture; without it the fold's sides are straight.
 ///
 /// # Errors
 /// [`NoFold`] if there is not even a guess.
@@ -121,8 +122,8 @@ pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<DetectedFold, N
     most_probable(photograph, lens, LEAST_CONFIDENCE, |_| true)
 }
 
-/// The fold of which two places, px, are on the two panels, in either order; somebody looks at it, however
-/// unsure it is.
+/// The fold with two stated places, px, on its two panels, in either order; returned at any confidence,
+/// because a person reviews it.
 ///
 /// # Errors
 /// As [`find_fold`].
@@ -143,7 +144,7 @@ pub fn find_fold_around(
     most_probable(photograph, lens, 0.0, |outline| outline.has_panels_at(panels))
 }
 
-/// The most probable fold among some.
+/// The most probable fold that `may_be` accepts.
 fn most_probable(
     photograph: &Photograph,
     lens: &Lens,
@@ -178,17 +179,17 @@ fn nearest_to_frame(outline: &Outline, reduced: &Reduced) -> f64 {
     outline.0.iter().map(inside).fold(f64::INFINITY, f64::min)
 }
 
-/// A fold that the search weighed, and what it weighed.
+/// A fold considered by the search, with its features.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WeighedFold {
     /// Corners of both panels, px, as [`DetectedFold::panels`].
     pub panels: [[Point; 4]; 2],
-    /// What speaks for it and against it.
+    /// Its features.
     pub weighed: Vec<f64>,
 }
 
-/// All that the search weighs in a photograph, to fit its weights with: hypotheses as they are found, and the
-/// most probable of them refined.
+/// All folds considered in a photograph, for fitting the weights: hypotheses as found, and the most probable
+/// ones refined.
 #[must_use]
 pub fn weighed_folds(photograph: &Photograph) -> [Vec<WeighedFold>; 2] {
     let reduced = Reduced::of(photograph);
@@ -251,7 +252,7 @@ mod tests {
         assert!(!found.is_ok_and(|found| found.is_sure()), "{found:?}");
     }
 
-    /// Light falls towards one side of a sheet, and nowhere is a crease.
+    /// Light falls towards one side of a sheet without a crease.
     #[test]
     fn a_flat_sheet_is_not_claimed() {
         let inside = |x: usize, y: usize| (60..260).contains(&x) && (50..210).contains(&y);

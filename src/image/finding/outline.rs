@@ -1,13 +1,13 @@
-//! The six corners of a fold in a picture, and the quadrilaterals that it is made of.
+//! The six corners of a fold in a picture, and its quadrilaterals.
 
 use nalgebra::Vector2;
 
 use crate::image::placing::Point;
 
-/// A place in the picture or a way across it, px.
+/// A place in the picture or a vector in it, px.
 pub(super) type Place = Vector2<f64>;
 
-/// Four corners in order round a quadrilateral.
+/// Four corners in order around a quadrilateral.
 pub(super) type Quad = [Place; 4];
 
 /// The corners of a fold: crease ends 0 and 1, outer ends 1 and 0 of one panel, outer ends 1 and 0 of the
@@ -15,36 +15,36 @@ pub(super) type Quad = [Place; 4];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outline(pub [Place; 6]);
 
-/// The corners that each side joins: the crease first, then those of either panel from end 1 round to end 0.
+/// The corners that each side joins: the crease, then the sides of each panel from end 1 around to end 0.
 pub(super) const SIDES: [(usize, usize); 7] = [(0, 1), (1, 2), (2, 3), (3, 0), (1, 4), (4, 5), (5, 0)];
-/// The corners of either panel, in the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS).
+/// The corners of each panel, in the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS).
 const PANELS: [[usize; 4]; 2] = [[0, 1, 2, 3], [0, 1, 4, 5]];
-/// Ways to name the corners of one fold: its ends, its panels or both changed over.
+/// Equivalent orders of the corners of one fold: its ends, its panels or both swapped.
 const NAMINGS: [[usize; 6]; 4] =
     [[0, 1, 2, 3, 4, 5], [1, 0, 3, 2, 5, 4], [0, 1, 4, 5, 2, 3], [1, 0, 5, 4, 3, 2]];
 
-/// The shortest side, the longest, and the side of a square of the same area are at least this long, px.
+/// Least length, px, of the longest side and of the side of a square of the same area.
 const LEAST_PX: f64 = 14.0;
-/// How much shorter the shortest side may be than [`LEAST_PX`].
+/// Least length of the shortest side, relative to [`LEAST_PX`].
 const SHORTEST: f64 = 0.7;
-/// Opposite sides of a rectangle seen from not too near differ by less than this, relative to the longer one.
+/// Largest difference of opposite sides, relative to the longer one, for a rectangle seen from not too near.
 const LEAST_PARALLEL: f64 = 0.45;
-/// Least sine of an angle between neighbouring sides.
+/// Least sine of an angle between adjacent sides.
 const LEAST_SINE: f64 = 0.12;
-/// The longest side is at most so many times the shortest.
+/// Largest ratio of the longest side to the shortest.
 const LONGEST: f64 = 8.0;
 
-/// Twice the area of the triangle between two ways, with sign.
+/// Twice the signed area of the triangle between two vectors.
 pub(super) fn cross(a: Place, b: Place) -> f64 {
     a.perp(&b)
 }
 
-/// The area of a quadrilateral, px², positive if it runs clockwise as seen.
+/// The area of a quadrilateral, px², positive if clockwise as seen.
 pub(super) fn area(quad: &Quad) -> f64 {
     0.5 * cross(quad[0] - quad[2], quad[1] - quad[3])
 }
 
-/// Whether a place is within a convex one, whichever way its corners go round.
+/// Whether a place is inside a convex quadrilateral of either orientation.
 fn is_inside(quad: &Quad, place: Place) -> bool {
     let side = |k: usize| cross(quad[(k + 1) % 4] - quad[k], place - quad[k]);
     let sides = [0, 1, 2, 3].map(side);
@@ -56,12 +56,12 @@ pub(super) fn centre(quad: &Quad) -> Place {
     quad.iter().sum::<Place>() / 4.0
 }
 
-/// A place between two others.
+/// The point at this fraction of the way from `a` to `b`.
 pub(super) fn between(a: Place, b: Place, part: f64) -> Place {
     a + (b - a) * part
 }
 
-/// Whether a rectangle far enough away may look like that: convex, not tiny, nearly a parallelogram.
+/// Whether a sufficiently distant rectangle may look like this: convex, not tiny, nearly a parallelogram.
 pub(super) fn may_be_rectangle(quad: &Quad) -> bool {
     let sides = [0, 1, 2, 3].map(|k| quad[(k + 1) % 4] - quad[k]);
     let lengths = sides.map(|side| side.norm());
@@ -94,12 +94,12 @@ impl Outline {
         (self.0[from], self.0[to])
     }
 
-    /// The side of a square as large as its panels are on average, px.
+    /// Side of a square with the mean area of its panels, px.
     pub fn size_px(&self) -> f64 {
         (self.panels().iter().map(|panel| area(panel).abs()).sum::<f64>() / 2.0).sqrt()
     }
 
-    /// The greatest distance between the corners of two folds, px, named as alike as they can be.
+    /// The greatest distance between the corners of two folds, px, under the order that matches best.
     pub fn distance_px(&self, other: &Self) -> f64 {
         let furthest = |naming: [usize; 6]| {
             let far = |(k, corner): (usize, usize)| (self.0[corner] - other.0[k]).norm();
@@ -114,8 +114,8 @@ impl Outline {
         may_be_rectangle(&a) && may_be_rectangle(&b) && area(&a) * area(&b) < 0.0
     }
 
-    /// The same fold as a user names it who has the crease upright: end 0 below, panel 0 on the left; of a
-    /// level crease panel 0 is the lower one.
+    /// The same fold in the user's order: with an upright crease end 0 at the bottom and panel 0 on the left;
+    /// with a level crease panel 0 the lower one.
     pub fn named(&self) -> Self {
         let renamed = |naming: [usize; 6]| Self(naming.map(|corner| self.0[corner]));
         let is_usual = |outline: &Self| {
@@ -137,14 +137,14 @@ impl Outline {
         (is_inside(&first, a) && is_inside(&second, b)) || (is_inside(&first, b) && is_inside(&second, a))
     }
 
-    /// The corners of either panel as points.
+    /// The corners of each panel as points.
     pub fn points(&self) -> [[Point; 4]; 2] {
         self.panels().map(|panel| panel.map(|corner| Point::new(corner.x, corner.y)))
     }
 }
 
-/// The most probable folds, at most `most`, of those less than `apart_px` from a more probable one only that;
-/// `folds` with their scores.
+/// The most probable of the scored `folds`, at most `most`, omitting those less than `apart_px` from a more
+/// probable one.
 pub(super) fn distinct(mut folds: Vec<(f64, Outline)>, apart_px: f64, most: usize) -> Vec<(f64, Outline)> {
     folds.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut kept: Vec<(f64, Outline)> = Vec::new();

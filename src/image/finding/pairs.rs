@@ -1,25 +1,26 @@
-//! Folds: two quadrilaterals with a side in common, or one cut in two where light has its sharpest ridge.
+//! Folds: two quadrilaterals with a common side, or one divided where light has its sharpest ridge.
 
 use super::evidence::Evidence;
 use super::light::LogLight;
 use super::outline::{Outline, Place, Quad, between, centre, cross};
 use super::quads::Scored;
 
-/// The ends of a common side are this near to each other, px and relative to the side.
+/// Largest distance between the ends of a common side, px and relative to the side.
 const SHARED_PX: f64 = 4.0;
 const SHARED: f64 = 0.07;
-/// The middles of a common side are nearer than this, px, however long it is.
+/// Largest distance between the middles of a common side, px, whatever its length.
 const MOST_APART_PX: f64 = 28.0;
-/// One panel is at most so many times as deep as the other.
+/// Largest ratio of the panels' depths.
 const DEEPER: f64 = 4.5;
-/// Places across a quadrilateral where it may be cut, along it, and to either side of a ridge.
+/// Places across a quadrilateral where it may be divided, places along it, and the distance to either side of
+/// a ridge.
 const CUTS: usize = 40;
 const ALONG: usize = 10;
 const AWAY: usize = 5;
-/// The least ridge of the logarithm of light at which a quadrilateral is cut.
+/// Least height of a ridge, in logarithms of light, that divides a quadrilateral.
 const LEAST_RIDGE: f64 = 0.01;
 
-/// Pairs of quadrilaterals on either side of a common one of their sides, with the sum of their scores.
+/// Pairs of quadrilaterals on either side of a common side, with the sum of their scores.
 pub(super) fn pairs(quads: &[Scored]) -> Vec<(f64, Outline)> {
     let sides: Vec<(usize, Quad)> = quads
         .iter()
@@ -29,7 +30,7 @@ pub(super) fn pairs(quads: &[Scored]) -> Vec<(f64, Outline)> {
     let mut folds = Vec::new();
     for (n, (i, a)) in sides.iter().enumerate() {
         for (j, b) in &sides[n + 1..] {
-            // sides run on in fours
+            // four successive sides belong to one quadrilateral
             if i == j || (a[0] + a[1] - b[0] - b[1]).norm_squared() > 4.0 * MOST_APART_PX * MOST_APART_PX {
                 continue;
             }
@@ -41,10 +42,10 @@ pub(super) fn pairs(quads: &[Scored]) -> Vec<(f64, Outline)> {
     folds
 }
 
-/// The fold of two quadrilaterals whose first sides are one, and how far they are from that.
+/// The fold of two quadrilaterals whose first sides coincide, and the gap between those.
 fn fold(a: &Quad, b: &Quad) -> Option<(f64, Outline)> {
     let ends = |b: [Place; 2]| (a[0] - b[0]).norm().max((a[1] - b[1]).norm());
-    // neighbours with the same sense of rotation run along their common side in opposite ways
+    // neighbours with the same orientation traverse their common side in opposite directions
     let b = if ends([b[1], b[0]]) < ends([b[0], b[1]]) { [b[1], b[0], b[3], b[2]] } else { *b };
     let length = (a[1] - a[0]).norm().min((b[1] - b[0]).norm());
     let gap = ends([b[0], b[1]]);
@@ -59,7 +60,7 @@ fn fold(a: &Quad, b: &Quad) -> Option<(f64, Outline)> {
     alike.then_some((gap / length, outline))
 }
 
-/// Folds of single quadrilaterals, both ways across each.
+/// Folds of single quadrilaterals, divided in either direction.
 pub(super) fn halves(quads: &[Scored], light: &LogLight) -> Vec<Outline> {
     let turned = |quad: Quad| [quad, [quad[1], quad[2], quad[3], quad[0]]];
     quads.iter().flat_map(|scored| turned(scored.quad)).filter_map(|quad| half(&quad, light)).collect()
@@ -82,8 +83,8 @@ fn half(quad: &Quad, light: &LogLight) -> Option<Outline> {
     (ridge(cut) > LEAST_RIDGE).then(|| Outline([from, to, quad[3], quad[0], quad[2], quad[1]]))
 }
 
-/// The same folds with one end of the crease or both where it meets the straight line between outer corners:
-/// the ends of two panels are often seen in one line.
+/// The same folds with one or both ends of the crease on the straight line between outer corners: the ends of
+/// two panels are often seen in one line.
 pub(super) fn straightened(fold: &Outline) -> Vec<Outline> {
     const LEAST_PX: f64 = 4.0;
     let c = &fold.0;
@@ -107,7 +108,7 @@ pub(super) fn straightened(fold: &Outline) -> Vec<Outline> {
     folds
 }
 
-/// The fold with the ends of the crease moved along the outline to where light has its ridge or step.
+/// The fold with the ends of the crease moved along the outline to the ridge or step of light.
 pub(super) fn slid(fold: &Outline, evidence: &Evidence) -> Outline {
     const STEPS: i32 = 7;
     const STEP: f64 = 0.05;
@@ -132,7 +133,7 @@ pub(super) fn slid(fold: &Outline, evidence: &Evidence) -> Outline {
     moved
 }
 
-/// Mean step along a line, from 0 to 1, and mean coarse bend of light across it.
+/// Mean strength of a step along a line, from 0 to 1, and mean coarse curvature of light across it.
 fn crease_like([from, to]: [Place; 2], evidence: &Evidence) -> (f64, f64) {
     const PLACES: usize = 30;
     let along = (to - from).normalize();
@@ -154,7 +155,7 @@ mod tests {
     #[test]
     fn two_panels_make_a_fold_and_one_with_itself_none() {
         let [a, b] = outline().panels();
-        // corners may be named from any on, in either sense
+        // corners may start anywhere, in either orientation
         let quads = [a, [b[2], b[1], b[0], b[3]]].map(|quad| Scored { quad, score: 1.0 });
         let found = pairs(&quads);
         assert!(found.iter().any(|(_, fold)| fold.distance_px(&outline()) < 1e-9));

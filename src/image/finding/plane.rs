@@ -1,8 +1,8 @@
-//! One number for each pixel, and filters over it.
+//! One number per pixel, and filters.
 
 use rayon::prelude::*;
 
-/// One number for each pixel, row by row.
+/// One number per pixel, row by row.
 #[derive(Debug, Clone)]
 pub(super) struct Plane {
     pub width: usize,
@@ -10,8 +10,8 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// The plane correlated with a row of weights and then with a column of them, both of odd length about
-    /// their middle; beyond the picture its edge goes on.
+    /// Correlates each row with the weights `across`, then each column with `down`, both of odd length and
+    /// centred; beyond the border the picture is continued.
     pub fn filtered(&self, across: &[f32], down: &[f32]) -> Self {
         let width = self.width;
         let mut rows = vec![0.0_f32; self.values.len()];
@@ -37,7 +37,7 @@ impl Plane {
         Self { width, values }
     }
 
-    /// The plane as a lens blurs it, with a normal distribution of this standard deviation, px.
+    /// The plane blurred by a Gaussian of this standard deviation, px.
     pub fn blurred(&self, sigma_px: f32) -> Self {
         let reach = (3.5 * sigma_px).ceil() as i32;
         let weight = |d: i32| (-0.5 * (d as f32 / sigma_px).powi(2)).exp();
@@ -46,7 +46,7 @@ impl Plane {
         self.filtered(&weights, &weights)
     }
 
-    /// The sum of planes of one size.
+    /// The sum of planes of equal size.
     pub fn sum(planes: &[Self; 3]) -> Self {
         let [r, g, b] = planes.each_ref().map(|plane| plane.values.iter());
         Self { width: planes[0].width, values: r.zip(g).zip(b).map(|((r, g), b)| r + g + b).collect() }

@@ -1,4 +1,4 @@
-//! Quadrilaterals that segments bound on three sides, or on two opposite ones.
+//! Quadrilaterals bounded by segments on three sides, or on two opposite ones.
 
 use rayon::prelude::*;
 
@@ -7,41 +7,40 @@ use super::evidence::Evidence;
 use super::light::LogLight;
 use super::outline::{Place, Quad, area, cross, may_be_rectangle};
 
-/// A quadrilateral with how much it looks like a panel.
+/// A quadrilateral with its similarity to a panel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scored {
     pub quad: Quad,
     pub score: f64,
 }
 
-/// Arms at either end of a segment that are tried, the longest first.
+/// Arms tried at either end of a segment, the longest first.
 const ARMS: usize = 14;
-/// An arm is at least this long, px, and its direction differs from the segment's by this sine.
+/// Least length of an arm, px, and least sine of its angle with the segment.
 const LEAST_ARM_PX: f64 = 10.0;
 const LEAST_SINE: f64 = 0.25;
-/// Arms as nearly equal as this are not made equal.
+/// Arms with at least this ratio of lengths are not made equal.
 const EQUAL: f64 = 0.9;
-/// Opposite sides are parallel to within this sine, at least so long, px, and as long as each other within
-/// this factor.
+/// Opposite sides: largest sine of their angle, least length, px, and largest ratio of their lengths.
 const PARALLEL_SINE: f64 = 0.5;
 const LEAST_OPPOSITE_PX: f64 = 15.0;
 const UNEQUAL: f64 = 1.67;
-/// Segments end within this of where they meet, px and relative to their length; further if they meet outside
-/// the picture.
+/// Largest distance between the ends of segments and their meeting point, px and relative to their length;
+/// larger if they meet outside the picture.
 const MEET_PX: f64 = 8.0;
 const MEET: f64 = 0.15;
 const MEET_OUTSIDE_PX: f64 = 10.0;
 const MEET_OUTSIDE: f64 = 0.35;
-/// How many quadrilaterals are looked at more and more closely.
+/// Quadrilaterals that pass the first look, and the closer second one.
 const GLANCED_AT: usize = 9000;
 const LOOKED_AT: usize = 2500;
-/// A step inside a panel is stronger than this.
+/// Least strength of a step inside a panel.
 const INNER_STEP: f64 = 0.03;
-/// Quadrilaterals are different if a corner is off by more than this, px and relative to their size.
+/// Quadrilaterals differ if a corner is off by more than this, px and relative to their size.
 const APART_PX: f64 = 2.5;
 const APART: f64 = 0.03;
 
-/// The quadrilaterals that look most like panels, at most `most`.
+/// The quadrilaterals most similar to panels, at most `most`.
 pub(super) fn quads(segments: &[Segment], evidence: &Evidence, light: &LogLight, most: usize) -> Vec<Scored> {
     let mut all: Vec<Quad> = (0..segments.len())
         .into_par_iter()
@@ -63,7 +62,7 @@ pub(super) fn quads(segments: &[Segment], evidence: &Evidence, light: &LogLight,
     different(judged, most)
 }
 
-/// Those with the highest scores.
+/// The quadrilaterals with the highest scores.
 fn best_of(quads: Vec<Quad>, score: impl Fn(&Quad) -> f64 + Sync, most: usize) -> Vec<Scored> {
     let scored = quads.into_par_iter().map(|quad| Scored { quad, score: score(&quad) });
     let mut scored: Vec<Scored> = scored.collect();
@@ -74,7 +73,7 @@ fn best_of(quads: Vec<Quad>, score: impl Fn(&Quad) -> f64 + Sync, most: usize) -
     scored
 }
 
-/// How well edges lie along the sides, of which one may have none, and how large it is.
+/// Score of the edges along the sides, one of which may be missing, and of the size.
 fn sides_score(quad: &Quad, evidence: &Evidence, places: usize, offsets_px: &[f64]) -> f64 {
     let mut sides = [0, 1, 2, 3].map(|k| {
         let support = evidence.support((quad[k], quad[(k + 1) % 4]), places, offsets_px);
@@ -85,7 +84,7 @@ fn sides_score(quad: &Quad, evidence: &Evidence, places: usize, offsets_px: &[f6
     sides[1] + sides[2] + sides[3] + sides[0].max(0.5) + 0.6 * (size / 60.0).ln().clamp(-2.0, 1.2)
 }
 
-/// The first of those that are alike, in order.
+/// The first of each group of similar ones, in order.
 fn different(quads: Vec<Scored>, most: usize) -> Vec<Scored> {
     let mut kept: Vec<(Scored, Quad)> = Vec::new();
     for scored in quads {
@@ -102,14 +101,15 @@ fn different(quads: Vec<Scored>, most: usize) -> Vec<Scored> {
     kept.into_iter().map(|(scored, _)| scored).collect()
 }
 
-/// The same quadrilateral from the corner nearest to the top left on, clockwise.
+/// The same quadrilateral clockwise from the corner nearest to the top left.
 fn from_top_left(quad: &Quad) -> Quad {
     let first = (0..4).min_by(|a, b| quad[*a].sum().total_cmp(&quad[*b].sum())).unwrap_or(0);
     let step = if area(quad) > 0.0 { 1 } else { 3 };
     [0, 1, 2, 3].map(|k| quad[(first + k * step) % 4])
 }
 
-/// Where two segments' lines meet, and how far along the first from its start, px; none of parallel ones.
+/// Intersection of two segments' lines, and its distance along the first from its start, px; none if
+/// parallel.
 fn meeting(a: &Segment, b: &Segment) -> Option<(Place, f64)> {
     let along = (a.to - a.from).normalize();
     let sine = cross(along, b.to - b.from);
@@ -117,7 +117,7 @@ fn meeting(a: &Segment, b: &Segment) -> Option<(Place, f64)> {
     far.is_finite().then(|| (a.from + along * far, far))
 }
 
-/// Which ends of a segment lie at a place of its line so far from its start.
+/// Which ends of a segment lie near the point of its line at distance `far` from its start.
 fn ends_near(segment: &Segment, far: f64, is_outside: bool) -> [bool; 2] {
     let length = segment.length();
     let reach =
@@ -150,7 +150,7 @@ fn with_arms(segments: &[Segment], base: usize, evidence: &Evidence) -> Vec<Quad
     quads
 }
 
-/// Foot and tip of the arms at either end of a base.
+/// Feet and tips of the arms at either end of a base.
 fn arms(segments: &[Segment], base: usize, evidence: &Evidence) -> [Vec<(Place, Place)>; 2] {
     let on = &segments[base];
     let along = (on.to - on.from).normalize();
@@ -179,7 +179,7 @@ fn arms(segments: &[Segment], base: usize, evidence: &Evidence) -> [Vec<(Place, 
     })
 }
 
-/// Quadrilaterals between a segment and those after it that may be its opposite side.
+/// Quadrilaterals between a segment and possible opposite sides among later segments.
 fn opposite(segments: &[Segment], first: usize) -> Vec<Quad> {
     let one = &segments[first];
     let (way, length) = (one.to - one.from, one.length());

@@ -1,4 +1,4 @@
-//! A small copy of a photograph: a fold is found in it as well as in millions of pixels.
+//! A reduced copy of a photograph, in which folds are found as well as in millions of pixels.
 
 use rayon::prelude::*;
 
@@ -8,28 +8,28 @@ use crate::image::photograph::{Photograph, Pixel};
 
 /// Longest side of a reduced picture, px.
 const LONGEST_PX: usize = 960;
-/// Part of the pixels that is darker than what counts as 1, in each channel: light and camera colour them
-/// differently.
+/// Fraction of the pixels darker than the light that counts as 1, for each channel, because illuminant and
+/// camera scale them differently.
 const DARKER_THAN_ONE: f64 = 0.99;
-/// Every so many pixels are looked at for it.
+/// It is taken from every fourth pixel.
 const LOOKED_AT: usize = 4;
-/// Light below this part of the brightest is noise to the eye of the search.
+/// Light below this fraction of the brightest counts as noise.
 const DARK: f32 = 0.004;
-/// What is brighter than this counts as that bright.
+/// Light is limited to this.
 const BRIGHT: f32 = 4.0;
 
 /// A photograph's light in blocks of pixels.
 pub(super) struct Reduced {
     pub width: usize,
     pub height: usize,
-    /// How many of the photograph's pixels in a row one of these is.
+    /// Its pixels' width in pixels of the photograph.
     pub scale: usize,
-    /// Light row by row, each channel over that of its brightest pixels.
+    /// Light row by row, each channel relative to its brightest pixels.
     pub light: Vec<[f32; 3]>,
 }
 
 impl Reduced {
-    /// The mean light of square blocks; a margin narrower than a block is left out.
+    /// The mean light of square blocks; a margin narrower than a block is dropped.
     pub fn of(photograph: &Photograph) -> Self {
         let scale = photograph.width().max(photograph.height()).div_ceil(LONGEST_PX);
         let [width, height] = [photograph.width(), photograph.height()].map(|side| (side / scale).max(1));
@@ -43,7 +43,7 @@ impl Reduced {
         Self { width, height, scale, light }
     }
 
-    /// A picture of half the size, the mean light of two by two pixels.
+    /// A picture of half the size: means over two by two pixels.
     pub fn halved(&self) -> Self {
         let [width, height] = [self.width, self.height].map(|side| (side / 2).max(1));
         let pixel = |k: usize| {
@@ -61,17 +61,17 @@ impl Reduced {
     /// The reduced picture as a photograph.
     ///
     /// # Errors
-    /// None: it has as many numbers as pixels.
+    /// None: it has three numbers per pixel.
     pub fn photograph(&self) -> Result<Photograph> {
         Photograph::from_light(self.width, self.height, self.light.iter().flatten().copied().collect())
     }
 
-    /// Square roots of light: noise of one size everywhere, dark edges of the same weight as bright ones.
+    /// Square roots of light, which make noise uniform and give dark edges the weight of bright ones.
     pub fn even(&self) -> [Plane; 3] {
         self.planes(|light| (light.clamp(0.0, BRIGHT) + DARK).sqrt())
     }
 
-    /// Something made of each channel's light.
+    /// A function of each channel's light.
     pub fn planes(&self, of_light: impl Fn(f32) -> f32 + Sync) -> [Plane; 3] {
         [0, 1, 2].map(|channel| Plane {
             width: self.width,
@@ -85,7 +85,7 @@ fn add_blocks(photograph: &Photograph, y: usize, scale: usize, row: &mut [[f32; 
     let width = row.len() * scale;
     let layers: Vec<_> = photograph.layers().collect();
     for (colour, layer) in layers.iter().enumerate() {
-        // a mosaic's layers have one colour each
+        // each layer of a mosaic has one colour
         let own = if layers.len() > 1 { colour..colour + 1 } else { 0..3 };
         let mut counts = vec![0.0_f32; row.len()];
         for y in y * scale..((y + 1) * scale).min(photograph.height()) {
@@ -101,7 +101,7 @@ fn add_blocks(photograph: &Photograph, y: usize, scale: usize, row: &mut [[f32; 
     }
 }
 
-/// What a clipped pixel has, and more, is 1.
+/// A pixel's light; a clipped one counts as 1.
 pub(super) fn of_pixel(pixel: Pixel) -> [f32; 3] {
     match pixel {
         Pixel::Light(light) => light.map(|light| light as f32),
@@ -140,7 +140,7 @@ mod tests {
         let (width, height) = (1000, 8);
         let light = (0..width * height).map(|k| [[0.5, 0.25], [0.25, 0.125]][k / width % 2][k % 2]).collect();
         let raw = Photograph::from_mosaic(Mosaic::new("RGGB").unwrap(), width, height, light).unwrap();
-        // each channel counts relative to its brightest
+        // each channel is relative to its brightest
         assert!(Reduced::of(&raw).light.iter().flatten().all(|light| (light - 1.0).abs() < 1e-6));
     }
 }

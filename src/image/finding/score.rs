@@ -1,9 +1,9 @@
-//! The odds that a picture's hypotheses have against "no fold".
+//! The odds of a picture's hypotheses against "no fold".
 
 use super::features::FEATURES;
 use super::weights::{NO_FOLD, RANK};
 
-/// The logarithm of the odds of a hypothesis against no fold.
+/// Log odds of a hypothesis against no fold.
 pub(super) fn log_odds(features: &[f64; FEATURES]) -> f64 {
     features.iter().zip(&RANK).map(|(feature, weight)| feature * weight).sum::<f64>() - NO_FOLD
 }

@@ -1,4 +1,4 @@
-//! Folds that a picture may show, the most probable first.
+//! Folds that a picture may show, most probable first.
 
 use rayon::prelude::*;
 
@@ -14,27 +14,27 @@ use super::score::log_odds;
 use super::segments::{FINE_PX, RIDGE_PX, segments};
 use super::snap::snapped;
 
-/// Blur under which the bend of light across a crease is seen coarsely, px.
+/// Blur for the coarse curvature of light across a crease, px.
 const COARSE_RIDGE_PX: f32 = 4.0;
-/// Quadrilaterals that may be panels, those that may be whole folds, and pairs of them.
+/// Quadrilaterals that may be panels, those that may be whole folds, and pairs.
 const QUADS: usize = 400;
 const HALVED: usize = 40;
 const PAIRS: usize = 150;
-/// Pairs are different if a corner is off by more than this, px.
+/// Pairs differ if a corner is off by more than this, px.
 const PAIRS_APART_PX: f64 = 3.0;
-/// Of the most probable pairs so many have their creases straightened, and slid.
+/// Number of the most probable folds whose creases are straightened, and slid.
 const STRAIGHTENED: usize = 40;
 const SLID: usize = 60;
-/// Sides are moved by so much to an edge, px, and less where the crease was slid.
+/// Search distance when sides are moved to an edge, px, and after sliding a crease.
 const SNAP_PX: f64 = 5.0;
 const SLID_SNAP_PX: f64 = 4.0;
-/// A crease that was slid less than this, px, is the same.
+/// Creases slid by less than this, px, count as unchanged.
 const SLID_PX: f64 = 3.0;
-/// Hypotheses that are kept, different by so many px.
+/// Hypotheses that are kept, and the least distance between them, px.
 const KEPT: usize = 40;
 const APART_PX: f64 = 2.5;
 
-/// A reduced picture and what it says about edges and light.
+/// The evidence of a reduced picture for edges, and its light.
 pub(super) struct Views {
     pub evidence: Evidence,
     pub light: LogLight,
@@ -45,7 +45,7 @@ pub(super) struct Views {
 pub(super) struct Hypothesis {
     pub outline: Outline,
     pub features: [f64; FEATURES],
-    /// Of it against no fold.
+    /// Against no fold.
     pub log_odds: f64,
 }
 
@@ -73,7 +73,7 @@ pub(super) fn search(reduced: &Reduced) -> (Views, Vec<Hypothesis>) {
 }
 
 impl Views {
-    /// Folds with their sides along edges, and the same with their creases elsewhere.
+    /// Folds with their sides along edges, and variants with other creases.
     fn variants(&self, folds: &[Outline]) -> Vec<Outline> {
         let snap = |fold: &Outline| snapped(fold, &self.evidence, SNAP_PX);
         let mut all: Vec<Outline> = folds.par_iter().map(snap).collect();
@@ -100,7 +100,7 @@ impl Views {
         kept.iter().filter_map(|(_, outline)| of(outline)).collect()
     }
 
-    /// A fold with what speaks for it.
+    /// A fold with its features and log odds.
     pub fn judge(&self, outline: &Outline) -> Hypothesis {
         let features = features(outline, &self.evidence, &self.light);
         Hypothesis { outline: *outline, features, log_odds: log_odds(&features) }

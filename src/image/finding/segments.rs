@@ -1,33 +1,34 @@
-//! The straight edges and ridges of a picture, the most telling first.
+//! The straight edges and ridges of a picture, most significant first.
 
 use super::chains::{EdgeMap, Segment};
 use super::outline::Place;
 use super::plane::Plane;
 
-/// Blur under which steps are looked for, px, and the weakest step of each.
+/// Blurs for steps, px, and the weakest step under each.
 pub(super) const FINE_PX: f32 = 1.0;
 const FINE_STEP: f32 = 0.006;
 const COARSE_PX: f32 = 2.2;
 const COARSE_STEP: f32 = 0.003;
-/// What blurring takes from a coarse step's strength.
+/// Compensates the loss of a coarse step's strength by blurring.
 const COARSE_GAIN: f64 = 1.6;
-/// Blur under which ridges are looked for, px, and the weakest one.
+/// Blur for ridges, px, and the weakest one.
 pub(super) const RIDGE_PX: f32 = 2.0;
 const RIDGE: f32 = 0.002;
 /// Fewest pixels of a step, and of a ridge.
 const STEP_PIXELS: usize = 12;
 const RIDGE_PIXELS: usize = 16;
-/// Strengths above these count as these.
+/// Strengths are limited to these.
 const STRONGEST_STEP: f64 = 0.05;
 const STRONGEST_RIDGE: f64 = 0.03;
 /// Segments that are kept.
 const MOST_STEPS: usize = 140;
 const MOST_RIDGES: usize = 40;
-/// Pieces that may be joined: grass has many thousands.
+/// Most pieces that are joined: grass yields many thousands.
 const MOST_PIECES: usize = 1200;
-/// Segments with both ends this near to each other's are one, px.
+/// Segments whose ends are both this near to another's are the same, px.
 const SAME_PX: f64 = 2.0;
-/// Pieces of one line lie within this of it, px, and a part of the gap between them more.
+/// Largest distance of pieces from their common line, px, and its increase per length of the gap between
+/// them.
 const OFF_PX: f64 = 1.6;
 const OFF_PER_GAP: f64 = 0.02;
 /// The longest gap between pieces of one line, relative to the line so far and in px,
@@ -58,7 +59,7 @@ pub(super) fn segments(channels: &[Plane; 3], fine: &[Plane; 3], curvatures: &[P
     kept
 }
 
-/// The longest and strongest segments, each once.
+/// The longest and strongest segments, without duplicates.
 fn most_telling(mut segments: Vec<Segment>, strongest: f64, most: usize) -> Vec<Segment> {
     let telling =
         |segment: &Segment| segment.length() * segment.cover * segment.strength.min(strongest).sqrt();
@@ -80,7 +81,8 @@ fn is_same(a: &Segment, b: &Segment) -> bool {
     near(a.from, b.from) && near(a.to, b.to) || near(a.from, b.to) && near(a.to, b.from)
 }
 
-/// Pieces of one line made into one, and also what they grew from: a line may go on beyond a corner.
+/// Pieces of one line joined, together with the pieces that they grew from: a line may continue beyond a
+/// corner.
 fn joined(mut pieces: Vec<Segment>) -> Vec<Segment> {
     pieces.sort_by(|a, b| b.length().total_cmp(&a.length()));
     pieces.truncate(MOST_PIECES);
@@ -92,7 +94,7 @@ fn joined(mut pieces: Vec<Segment>) -> Vec<Segment> {
         }
         used[n] = true;
         let (mut line, mut covered, mut has_grown) = (pieces[n], pieces[n].length(), false);
-        // the longest first: pieces are in that order
+        // pieces are sorted, so the longest comes first
         while let Some(next) = (n + 1..pieces.len()).find(|k| !used[*k] && continues(&line, &pieces[*k])) {
             used[next] = true;
             line = union(&line, covered, &pieces[next]);
@@ -126,7 +128,7 @@ fn continues(line: &Segment, piece: &Segment) -> bool {
         && (low < -1.0 || high > length + 1.0)
 }
 
-/// The line through two pieces, of which the first has pixels on so much of its length.
+/// The line through two pieces, `covered` being the length of the first that has pixels.
 fn union(line: &Segment, covered: f64, piece: &Segment) -> Segment {
     let weights = [covered, covered, piece.length(), piece.length()];
     let total: f64 = weights.iter().sum();
@@ -153,7 +155,7 @@ mod tests {
     use super::super::evidence::{curvatures, steps};
     use super::*;
 
-    /// A square, brighter than what it lies on and turned, has four edges where its sides are.
+    /// A turned square that is brighter than its background has four edges at its sides.
     #[test]
     fn the_sides_of_a_square_are_found() {
         let (width, turn) = (160, 0.3_f64);

@@ -1,39 +1,39 @@
-//! Corners moved to where lines along the strongest edges near the sides meet.
+//! Moves corners to the intersections of lines along the strongest edges near the sides.
 
 use nalgebra::{Matrix2, Vector2};
 
 use super::evidence::Evidence;
 use super::outline::{Outline, Place, SIDES};
 
-/// Places along a side at which the strongest edge is looked for.
+/// Places along a side at which the strongest edge is searched for.
 const PLACES: usize = 32;
-/// Part of a side at either end that is not looked at.
+/// Fraction of a side omitted at either end.
 const END: f64 = 0.06;
-/// Distance between places across a side, px.
+/// Distance between samples across a side, px.
 const STEP_PX: f64 = 0.5;
-/// No edge is looked for further than this from a side, relative to its length, and px more.
+/// Search distance for an edge, relative to the side's length and with an offset in px.
 const REACH: f64 = 0.12;
 const REACH_PX: f64 = 2.0;
-/// An edge that is further away counts less, by this at the end of the reach.
+/// Loss of weight of an edge at the end of the search distance.
 const FAR: f64 = 0.5;
-/// A step of this size counts half.
+/// A step of this size scores one half.
 const HALF: f64 = 0.006;
-/// Fewest places that make a line.
+/// Fewest places that define a line.
 const FEWEST: usize = 6;
-/// Places this near to the line are on it, px.
+/// Largest distance from the line of a place on it, px.
 const ON_LINE_PX: f64 = 1.5;
 const ROUNDS: usize = 2;
-/// What holds a corner where it is.
+/// Weight that holds a corner at its position.
 const HOLD: f64 = 0.02;
 
-/// The distances of a line from the two ends of a side, px, and how sure it is, from 0 to 1.
+/// The distances of a line from the two ends of a side, px, and its weight, from 0 to 1.
 struct Line {
     from_px: f64,
     to_px: f64,
     weight: f64,
 }
 
-/// A fold whose sides lie along edges within `reach_px` of where they are.
+/// A fold with its sides moved to edges within `reach_px`.
 pub(super) fn snapped(fold: &Outline, evidence: &Evidence, reach_px: f64) -> Outline {
     (0..ROUNDS)
         .fold(*fold, |fold, round| moved(&fold, evidence, reach_px / (1 + round) as f64, 3.0 * reach_px))
@@ -93,7 +93,7 @@ fn line((from, to): (Place, Place), evidence: &Evidence, reach_px: f64, is_creas
     (weight > 0.02).then_some(Line { from_px, to_px, weight })
 }
 
-/// Where across a side the strongest edge is, px from the side, and how strong.
+/// Distance of the strongest edge from a side, px, and its strength.
 fn strongest(
     place: Place,
     across: Place,
@@ -122,8 +122,8 @@ fn strongest(
     Some((STEP_PX * (at as f64 - f64::from(steps) + between), best))
 }
 
-/// Offsets at both ends of the line through offsets at parts of a side, those that lie off it counting less
-/// and less.
+/// Offsets at both ends of the line fitted to offsets along a side, with outliers weighing less in each
+/// round.
 fn robust_line(found: &[(f64, f64, f64)], reach_px: f64) -> (f64, f64) {
     let mut offsets: Vec<f64> = found.iter().map(|(_, offset, _)| *offset).collect();
     let middle = offsets.len() / 2;
@@ -138,7 +138,7 @@ fn robust_line(found: &[(f64, f64, f64)], reach_px: f64) -> (f64, f64) {
             normal += basis * basis.transpose() * weight;
             right += basis * (offset * weight);
         }
-        normal[(1, 1)] += 1e-3 * normal[(0, 0)]; // a line that little is known of stays parallel to the side
+        normal[(1, 1)] += 1e-3 * normal[(0, 0)]; // an uncertain line stays parallel to the side
         let Some(inverse) = normal.try_inverse() else { break };
         let fit = inverse * right;
         (from, slope) = (fit[0], fit[1]);

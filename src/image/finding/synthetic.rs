@@ -11,20 +11,20 @@ use crate::image::placing::Homography;
 
 pub(super) const WIDTH: usize = 320;
 pub(super) const HEIGHT: usize = 260;
-/// The colour of the sheet, and of what it lies on.
+/// The colour of the sheet, and of its background.
 pub(super) const SHEET: [f64; 3] = [0.7, 0.4, 0.3];
 const GROUND: [f64; 3] = [0.12, 0.14, 0.1];
-/// Points of a pixel, each way.
+/// Points per pixel in each direction.
 const POINTS: usize = 4;
 
-/// A fold with an upright crease, end 0 below, panel 0 on the left.
+/// A fold with an upright crease, end 0 at the bottom, panel 0 on the left.
 pub(super) fn outline() -> Outline {
     let corners = [(160., 210.), (157., 52.), (62., 42.), (70., 226.), (256., 46.), (248., 223.)];
     Outline(corners.map(|(x, y)| Place::new(x, y)))
 }
 
-/// A picture of a fold `scale` times as large, whose light rises to the crease and takes on more of its
-/// colour, with noise.
+/// A picture of a fold `scale` times as large, with noise; its light rises and gains saturation towards the
+/// crease.
 pub(super) fn picture(fold: &Outline, scale: usize) -> Photograph {
     let panels =
         fold.scaled(scale as f64).points().map(|corners| Homography::from_unit_square(corners).unwrap());
@@ -48,7 +48,7 @@ pub(super) fn picture(fold: &Outline, scale: usize) -> Photograph {
     Photograph::from_light(width, height, light).unwrap()
 }
 
-/// Light of a sheet of this reflectance at a distance from the crease: some of it came from the other panel.
+/// Light of a sheet of this reflectance at a distance from the crease, including light from the other panel.
 pub(super) fn lit(reflectance: f64, v: f64) -> f64 {
     reflectance * (0.55 + 0.9 * reflectance * (-2.5 * v).exp())
 }
@@ -64,7 +64,7 @@ fn at(panels: &[Homography; 2], place: Place) -> [f64; 3] {
     }
 }
 
-/// What the search sees of the drawn fold.
+/// The drawn fold as the search sees it.
 pub(super) fn views() -> (Reduced, Evidence, LogLight) {
     let reduced = Reduced::of(&picture(&outline(), 1));
     let channels = reduced.even();
@@ -74,7 +74,7 @@ pub(super) fn views() -> (Reduced, Evidence, LogLight) {
     (reduced, evidence, light)
 }
 
-/// The fold with every corner so far from where it is, in turn to all sides.
+/// The fold with every corner displaced by this distance, in varying directions.
 pub(super) fn off(px: f64) -> Outline {
     let mut fold = outline();
     for (k, corner) in fold.0.iter_mut().enumerate() {

@@ -1,13 +1,14 @@
-//! A tree of questions on what tells whether the corners of a fold are right.
+//! A decision tree over the clues to whether the corners of a fold are right.
 
 use super::features::FEATURES;
 
-/// Numbers that tell whether all corners of a candidate are right.
+/// Number of clues to whether all corners of a candidate are right.
 pub(super) const CLUES: usize = 12 + FEATURES;
 
-/// Three questions in turn, which lead to one of eight answers.
+/// Three successive questions lead to one of eight answers.
 pub(super) struct Tree {
-    /// Which clue is compared, and with what: the first question, the two after it, and the four after those.
+    /// The clue of each question and its threshold: the first question, the two after it, and the four after
+    /// those.
     pub questions: [(u8, f64); 7],
     pub answers: [f64; 8],
 }

@@ -1,7 +1,6 @@
-//! Fitted weights: made by `benches/find_fit.py` from rendered photographs and composites of them, not to be
-//! edited.
+//! Weights fitted by `benches/find_fit.py` to rendered photographs and composites of them; do not edit.
 
-#![allow(clippy::excessive_precision, clippy::approx_constant)] // what was fitted
+#![allow(clippy::excessive_precision, clippy::approx_constant)] // as fitted
 
 use super::features::FEATURES;
 use super::tree::Tree;
@@ -15,7 +14,7 @@ pub(super) const RANK: [f64; FEATURES] = [
 ];
 /// The score of "no fold".
 pub(super) const NO_FOLD: f64 = -2.1491;
-/// What is said before any tree, and how sums are made log odds.
+/// The sum before any tree, and the map from sums to log odds.
 pub(super) const BASE: f64 = -0.15503;
 pub(super) const SLOPE: f64 = 0.9956;
 pub(super) const OFFSET: f64 = -0.18171;

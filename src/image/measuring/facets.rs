@@ -1,9 +1,9 @@
 //! The mean colour of every facet of a photographed sheet.
 //!
-//! A facet's value is the mean over the sheet's surface, which is what a form-factor model predicts: a pixel
-//! counts by the panel area it shows. Pixels that straddle a panel's edge see something else as well and are
-//! left out, and so are those that show no sheet ([`super::outliers`]); the mean is then that of a plane
-//! fitted to the others, taken over the whole facet ([`super::plane_fit`]).
+//! A facet's value is the mean over the sheet's surface, as a form-factor model predicts: each pixel is
+//! weighted by the panel area it shows. Pixels across a panel's edge partly see something else and are
+//! excluded, as are those that do not show the sheet ([`super::outliers`]). The mean is that of a plane
+//! fitted to the others, over the whole facet ([`super::plane_fit`]).
 
 use std::ops::Range;
 
@@ -17,19 +17,19 @@ use crate::image::photograph::{Layer, Photograph, Pixel};
 use crate::image::placing::{Grid, Homography, Point, Quadrilateral, Sides, is_inside, sense};
 use crate::{Error, Result};
 
-/// Measures every facet of one panel or more.
+/// Measures every facet of one or more panels.
 ///
 /// # Arguments
-/// - `panels`: where each lies, by the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS), and how it is
-///   divided.
-/// - `margin_px`: how far from a panel's edge a pixel must stay, at least 0; blur and corners that are a
-///   little off ask for one or two.
+/// - `panels`: the position of each, by the order of [`PANEL_CORNERS`](crate::image::PANEL_CORNERS), and its
+///   division into facets.
+/// - `margin_px`: least distance of a pixel from a panel's edge, at least 0; blur and inaccurate corners need
+///   one or two.
 ///
 /// # Returns
-/// Facets by panel, then row (0 at the crease), then column (0 at crease end 0). The same for any number of
+/// Facets by panel, then row (0 at the crease), then column (0 at crease end 0). Independent of the number of
 /// threads.
 ///
-/// A facet that reaches out of the picture by more than a pixel has no mean.
+/// A facet that extends more than a pixel beyond the picture has no mean.
 ///
 /// # Errors
 /// [`Error::Corners`] if no facet of a panel lies in the picture.
@@ -56,7 +56,7 @@ pub fn measure(photograph: &Photograph, panels: &[Grid], margin_px: f64) -> Resu
         return Err(is_outside(outside, size));
     }
     let facets: Vec<Facet> = panels.iter().flat_map(Grid::facets).collect();
-    // one task per facet: each is summed in one order, however many threads there are
+    // one task per facet keeps the order of summation independent of the number of threads
     Ok(facets.par_iter().map(|facet| facet.measure(photograph, margin_px)).collect())
 }
 
@@ -68,7 +68,7 @@ fn is_outside(grid: &Grid, (width, height): (usize, usize)) -> Error {
     }
 }
 
-/// A rectangle of a panel: its ends along the crease and away from it.
+/// A rectangle of a panel: its range along the crease and away from it.
 struct Facet<'a> {
     panel: &'a Homography,
     u: [f64; 2],
@@ -89,7 +89,7 @@ impl Facet<'_> {
         each.fold(FacetMeasurement::NOTHING, FacetMeasurement::with_channels)
     }
 
-    /// The pixels of one layer of a photograph.
+    /// Tallies the pixels of one layer of a photograph.
     fn tally(&self, layer: Layer, margin_px: f64) -> Tally {
         let mut tally = Tally::default();
         if self.is_inside(layer.size()) {
@@ -98,12 +98,12 @@ impl Facet<'_> {
         tally
     }
 
-    /// Whether the whole facet lies in a picture of that width and height.
+    /// Whether the whole facet lies in a picture of this width and height.
     fn is_inside(&self, (width, height): (usize, usize)) -> bool {
         self.panel.rectangle(self.u, self.v).iter().all(|corner| is_inside(*corner, width, height))
     }
 
-    /// Parts of the facet whose sides are straight in the picture: one unless the lens bends them.
+    /// Parts of the facet whose sides are straight in the picture: one unless the lens distorts.
     fn cells(&self) -> impl Iterator<Item = Self> {
         let count =
             (self.panel.bow(self.u, self.v) / STRAIGHT_PX).sqrt().ceil().clamp(1.0, MOST_CELLS) as usize;
@@ -114,7 +114,7 @@ impl Facet<'_> {
         (0..count * count).map(move |k| Self { panel, u: part(u, k % count), v: part(v, k / count) })
     }
 
-    /// The panel's sides, as straight lines where they pass this part of it.
+    /// The panel's sides, as straight lines at this part of it.
     fn panel_sides(&self, margin_px: f64) -> Sides {
         let line =
             |a: (f64, f64), b: (f64, f64)| [self.panel.to_image(a.0, a.1), self.panel.to_image(b.0, b.1)];
@@ -128,7 +128,7 @@ impl Facet<'_> {
         Sides::new(lines, sense(self.panel.corners()), margin_px)
     }
 
-    /// Places the pixels of a part of the facet.
+    /// Tallies the pixels of a part of the facet.
     fn tally_cell(&self, cell: &Self, layer: Layer, margin_px: f64, tally: &mut Tally) {
         let panel = cell.panel_sides(margin_px);
         let outline = Quadrilateral::new(&cell.panel.rectangle(cell.u, cell.v));
@@ -150,7 +150,7 @@ impl Facet<'_> {
         }
     }
 
-    /// Adds a run of pixels of row `y`, of each of which the part `overlap` is in the facet.
+    /// Adds a run of pixels of row `y`; the fraction `overlap` of each is in the facet.
     fn add(&self, tally: &mut Tally, layer: Layer, columns: Range<usize>, y: usize, overlap: f64) {
         let mut run = Run::default();
         layer.visit(columns.clone(), y, |x, pixel| match pixel {
@@ -167,21 +167,21 @@ impl Facet<'_> {
     }
 }
 
-/// The part of `a` in `b`; if there is none, an empty range in `b`.
+/// The part of `a` in `b`; an empty range in `b` if there is none.
 fn intersection(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
     let start = a.start.clamp(b.start, b.end);
     start..a.end.clamp(start, b.end)
 }
 
-/// Pixels beside each other share their geometry, in at least this many runs across a facet: that shifts a
-/// mean by 1/(12 x 16²) of the product of what light and perspective change across the facet, three
-/// millionths where each changes by a tenth, and halves the time a large picture takes.
+/// Least number of runs of adjacent pixels across a facet; a run shares its geometry. That shifts a mean by
+/// 1/(12 x 16²) of the product of the changes of light and perspective across the facet, three millionths if
+/// each is a tenth, and halves the time for a large picture.
 const RUNS: usize = 16;
 
-/// An overlap this small, px², is rounding.
+/// Overlaps up to this, px², are rounding errors.
 const NO_OVERLAP: f64 = 1e-9;
 
 /// Sides that bow by less than this, px, count as straight.
 const STRAIGHT_PX: f64 = 0.02;
-/// A side is not cut into more parts than this.
+/// Most parts into which a side is divided.
 const MOST_CELLS: f64 = 100.0;

@@ -1,4 +1,4 @@
-//! How a photograph was made, as far as it shows.
+//! How a photograph was made, as far as can be determined.
 
 use super::processing::Processing;
 use crate::image::OtherFold;
@@ -7,30 +7,30 @@ use crate::image::photograph::{FileStamp, PhotographInfo};
 /// How a photograph was made.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Making {
-    /// Whether it was developed for the eye, it seems, and nothing of that was undone.
+    /// Whether it appears to be developed for the eye, with nothing undone.
     pub is_developed: bool,
-    /// What was done to its numbers, if their noise shows it.
+    /// Processing of its numbers that their noise reveals.
     pub processing: Option<Processing>,
-    /// Sides of the panels along which no edge of the sheet lies, in words.
+    /// Names of the sides of panels along which no edge of the sheet lies.
     pub open_sides: Vec<String>,
-    /// The fold that the corners are rather those of than of the stated one, if they are not those of that.
+    /// The fold whose corners they seem to be, if not those of the stated one.
     pub other_fold: Option<OtherFold>,
-    /// How far its darkest numbers are above black, white being 1, if they are alike in all channels: black
-    /// was not subtracted, it seems.
+    /// Height of its darkest numbers above black, white being 1, if they are equal in all channels: black
+    /// seems not to have been subtracted.
     pub unsubtracted_black: Option<f64>,
-    /// Maker and model of the camera, both empty where the photograph does not say so.
+    /// Maker and model of the camera, both empty if the photograph does not name it.
     pub taken_by: (String, String),
     /// Size and time of its file.
     pub file: Option<FileStamp>,
 }
 
 impl Making {
-    /// That of a photograph of which this is known.
+    /// Collects what is known of a photograph.
     ///
     /// # Arguments
-    /// - `processing`: as [`measure_panels`](crate::image::measure_panels) finds it.
-    /// - `open_sides`: as [`open_sides`](crate::image::open_sides) finds them.
-    /// - `other_fold`: as [`FoldSeen::other_than`](crate::image::FoldSeen::other_than) finds it.
+    /// - `processing`: from [`measure_panels`](crate::image::measure_panels).
+    /// - `open_sides`: from [`open_sides`](crate::image::open_sides).
+    /// - `other_fold`: from [`FoldSeen::other_than`](crate::image::FoldSeen::other_than).
     #[must_use]
     pub fn of(
         info: &PhotographInfo,

@@ -1,31 +1,30 @@
-//! What a photograph says about a facet or a patch.
+//! Measurement of a facet or a patch.
 
 use std::ops::Range;
 
-/// What a photograph says about one facet.
+/// Measurement of one facet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FacetMeasurement {
     /// Mean linear light per channel, 1 at the white level; none if no pixel is usable, more than 2 % are
-    /// clipped or the facet reaches out of the picture.
+    /// clipped or the facet extends beyond the picture.
     pub mean: Option<Vec<f64>>,
-    /// Standard error of the mean per channel, from the spread about a plane; none if there are too few
-    /// pixels to tell. It takes the noise of every pixel for its own: see
-    /// [`FacetMeasurement::with_shared_noise`].
+    /// Standard error of the mean per channel, from the scatter about a plane; none if pixels are too few. It
+    /// assumes independent noise in each pixel: see [`FacetMeasurement::with_shared_noise`].
     pub standard_error: Option<Vec<f64>>,
-    /// Usable pixels, of a mosaic those of all colours; a pixel shared among facets counts by the part of its
-    /// area that lies in this one.
+    /// Usable pixels, of all colours in a mosaic; a pixel shared between facets counts by the fraction of its
+    /// area in this one.
     pub pixels: f64,
-    /// Pixels left out because a channel is clipped.
+    /// Pixels excluded because a channel is clipped.
     pub clipped: usize,
-    /// Pixels left out because a channel is not finite or the pixel is transparent.
+    /// Pixels excluded because a channel is not finite or the pixel is transparent.
     pub not_finite: usize,
-    /// Pixels left out because they do not look like the rest of the facet: dust, specks.
+    /// Pixels excluded because they differ from the rest of the facet: dust, specks.
     pub outliers: usize,
-    /// Where the pixels are that were left out.
+    /// Positions of the excluded pixels.
     pub left_out: Vec<PixelRun>,
 }
 
-/// Pixels beside each other.
+/// Adjacent pixels in a row.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PixelRun {
     /// Their columns.
@@ -35,7 +34,7 @@ pub struct PixelRun {
 }
 
 impl FacetMeasurement {
-    /// Of no channels and no pixels.
+    /// With no channels and no pixels.
     pub(super) const NOTHING: Self = Self {
         mean: Some(Vec::new()),
         standard_error: Some(Vec::new()),
@@ -46,14 +45,14 @@ impl FacetMeasurement {
         left_out: Vec::new(),
     };
 
-    /// Of a facet that the photograph does not show.
+    /// For a facet outside the photograph.
     #[must_use]
     pub fn unseen() -> Self {
         Self { mean: None, standard_error: None, ..Self::NOTHING }
     }
 
-    /// The same with standard errors for noise that so many pixels share, per channel as
-    /// [`pixels_sharing_noise`](super::pixels_sharing_noise) gives it.
+    /// The same with standard errors for noise shared by this many pixels per channel, from
+    /// [`pixels_sharing_noise`](super::pixels_sharing_noise).
     #[must_use]
     pub fn with_shared_noise(mut self, pixels: &[f64]) -> Self {
         for (error, pixels) in self.standard_error.iter_mut().flatten().zip(pixels) {
@@ -62,7 +61,7 @@ impl FacetMeasurement {
         self
     }
 
-    /// Both measurements as one; where either lacks a number, so does the result.
+    /// Joins the channels of two measurements; what either lacks, the result lacks.
     pub(super) fn with_channels(self, others: Self) -> Self {
         let joined = |own: Option<Vec<f64>>, others: Option<Vec<f64>>| Some([own?, others?].concat());
         Self {

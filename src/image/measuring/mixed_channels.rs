@@ -1,27 +1,27 @@
-//! Whether a matrix has mixed red, green and blue.
+//! Detects whether a matrix has mixed red, green and blue.
 //!
-//! The noise of a sensor's channels is independent, and what programs make of it, or the grain of a sheet,
-//! goes the same way in all. A matrix to sRGB takes each channel's light from the others: where noise makes
-//! one brighter, it makes another darker.
+//! Noise is independent in a sensor's channels, and positively correlated after some processing or from the
+//! grain of a sheet. A matrix to sRGB subtracts other channels' light from each: where noise brightens one,
+//! it darkens another.
 
 use crate::image::photograph::{Layer, Photograph, Pixel};
 use crate::image::placing::{Homography, Quadrilateral};
 
-/// Pixels side by side whose noise is compared, and how many such runs of a panel are enough; fewer than some
-/// tell nothing.
+/// Length of a run of pixels whose noise is compared, how many runs of a panel suffice, and the fewest that
+/// count.
 const RUN_PX: usize = 26;
 const ENOUGH: usize = 150;
 const FEW: usize = 30;
-/// Noise below this part of the light may be the light's own changes.
+/// Noise below this fraction of the light may be variation of the light itself.
 const LEAST_NOISE: f64 = 1e-3;
-/// A correlation below this is none of a sensor's channels: one of 26 pixels' second differences scatters by
-/// about 0.25, the median of [`FEW`] of them by 0.05.
+/// A sensor's channels do not correlate below this: the correlation of 26 pixels' second differences has a
+/// standard deviation of 0.25, the median of [`FEW`] of them 0.05.
 const OPPOSITE: f64 = -0.15;
-/// The square sum of the weights of a second difference.
+/// Sum of squared weights of a second difference.
 const SQUARES: f64 = 6.0;
 
-/// Whether the noise of two channels goes opposite ways within the panels of a photograph: a matrix has mixed
-/// them, such as one from a camera's colours to sRGB. Where that cannot be determined it is false.
+/// Whether the noise of two channels is anticorrelated within the panels of a photograph, because a matrix,
+/// such as one from a camera's colours to sRGB, has mixed them. False if undetermined.
 pub(super) fn are_channels_mixed(photograph: &Photograph, panels: &[Homography]) -> bool {
     let mut layers = photograph.layers();
     let (Some(layer), None) = (layers.next(), layers.next()) else { return false };
@@ -38,8 +38,8 @@ fn median(mut all: Vec<f64>) -> f64 {
     *all.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// Correlations of red with green, red with blue and green with blue in as many runs of pixels all over a
-/// panel as are enough.
+/// Correlations of red with green, red with blue and green with blue in enough runs of pixels, spread over a
+/// panel.
 fn runs(layer: Layer, panel: &Homography) -> Vec<[f64; 3]> {
     let (width, height) = layer.size();
     let outline = Quadrilateral::new(panel.corners());
@@ -48,13 +48,13 @@ fn runs(layer: Layer, panel: &Homography) -> Vec<[f64; 3]> {
         (0..whole.len() / RUN_PX).map(move |run| (whole.start + run * RUN_PX, y))
     };
     let places: Vec<_> = outline.rows(height).flat_map(in_row).collect();
-    // every so many first: where many cannot be used, those between follow
+    // evenly spaced runs come first; those between follow where many are unusable
     let step = places.len().div_ceil(ENOUGH).max(1);
     let in_turn = (0..step).flat_map(|first| places.iter().skip(first).step_by(step));
     in_turn.filter_map(|(x, y)| correlations(layer, *x, *y)).take(ENOUGH).collect()
 }
 
-/// Those of the run that begins at (x, y); none if a pixel is not usable or noise does not show.
+/// Those of the run that begins at (x, y); none if a pixel is unusable or noise is too low.
 fn correlations(layer: Layer, x: usize, y: usize) -> Option<[f64; 3]> {
     let mut light = Vec::with_capacity(RUN_PX);
     layer.visit(x..x + RUN_PX, y, |_, pixel| {

@@ -1,39 +1,38 @@
-//! Whether noise grows with brightness, as that of light does.
+//! Detects whether noise grows with brightness, as photon noise does.
 //!
-//! Of n photons √n are noise: the variance of a sensor's numbers grows in proportion to them, is the same
-//! where reading the sensor makes most of it, and grows with their square where the sheet's own grain does.
-//! It never falls. Of numbers v = L^(1/γ) it is v^(2 - γ) times that of a sensor's, and falls where γ is 2.4,
-//! as sRGB's is.
+//! The variance of n photons is n: a sensor's variance is proportional to its numbers, constant where read
+//! noise dominates, and proportional to their square where the sheet's grain does. It never falls. For
+//! encoded numbers v = L^(1/γ) photon noise has a variance proportional to v^(2 - γ), which falls for γ =
+//! 2.4, as in sRGB.
 
 use super::measurement::FacetMeasurement;
 
-/// Fewer facets tell nothing, nor do those of fewer pixels.
+/// Fewest facets, and pixels of a facet, that count.
 const FACETS: usize = 40;
 const PIXELS: f64 = 10.0;
-/// Numbers fitted to a facet's pixels.
+/// Number of coefficients fitted to a facet's pixels.
 const FITTED: f64 = 3.0;
-/// Standard deviations of a pixel, as part of its light, by which noise tells: less may be the light's own
-/// changes, and of more reading the sensor makes a part.
+/// Usable range of a pixel's standard deviation relative to its light: less may be variation of the light
+/// itself, more contains read noise.
 const TELLING: [f64; 2] = [1e-3, 0.05];
-/// Powers of the light that the variance of a sensor's numbers is not in proportion to: all channels
-/// together, and within each.
+/// Least power of light to which a sensor's variance is proportional: over all channels, and usually within
+/// each.
 const NEVER: f64 = 0.0;
 const SELDOM: f64 = 0.7;
-/// How sure both must be, standard deviations: noise that is the same everywhere, as in a dark picture that
-/// reading the sensor dominates, passes for falling once in 700 cases.
+/// Required significance of both, standard deviations: uniform noise, as in a dark picture dominated by read
+/// noise, appears to fall once in 700 cases.
 const SURE: f64 = 3.0;
 
-/// Whether the noise of facets falls as they become brighter: their numbers are no sensor's, but have a curve
+/// Whether the noise of facets falls with brightness: their numbers are not a sensor's, but follow a curve
 /// such as sRGB's.
 ///
-/// `facets` have the standard errors that [`measure`](super::measure) gives, of three channels. Where that
-/// cannot be determined it is false.
+/// `facets` have standard errors from [`measure`](super::measure), in three channels. False if undetermined.
 pub(super) fn noise_falls(facets: &[FacetMeasurement]) -> bool {
     let channels: Option<Vec<Growth>> = (0..3).map(|channel| Growth::of(facets, channel)).collect();
     let Some(channels) = channels.filter(|channels| channels.iter().all(Growth::tells)) else { return false };
     let weight: f64 = channels.iter().map(|one| one.weight).sum();
     let within = channels.iter().map(|one| one.weight * one.power).sum::<f64>() / weight;
-    // Of green a sensor may have twice as many sites, and programs less noise; not so of red and blue.
+    // Green may have twice as many sites, or less noise after processing; red and blue are comparable.
     let (red, blue) = (&channels[0], &channels[2]);
     let (light, variance) = (blue.light - red.light, blue.variance - red.variance);
     let between_weight = light * light / (red.middle_weight.recip() + blue.middle_weight.recip());
@@ -43,21 +42,21 @@ pub(super) fn noise_falls(facets: &[FacetMeasurement]) -> bool {
     all + SURE / all_weight.sqrt() < NEVER && within + SURE / weight.sqrt() < SELDOM
 }
 
-/// How the variance of one channel grows: logarithms of variance over those of light.
+/// Growth of one channel's variance: the slope of log variance against log light.
 struct Growth {
-    /// The power of the light that the variance is in proportion to, and one over its variance.
+    /// The exponent, and its inverse variance.
     power: f64,
     weight: f64,
-    /// Mean logarithms, and one over the variance of that of the variance.
+    /// Mean logarithms of light and variance, and the inverse variance of the latter.
     light: f64,
     variance: f64,
     middle_weight: f64,
-    /// Standard deviation of a pixel as part of its light.
+    /// Standard deviation of a pixel relative to its light.
     part: f64,
 }
 
 impl Growth {
-    /// That of the facets in one channel.
+    /// Fitted to the facets in one channel.
     fn of(facets: &[FacetMeasurement], channel: usize) -> Option<Self> {
         let points: Vec<[f64; 3]> = facets.iter().filter_map(|facet| point(facet, channel)).collect();
         if points.len() < FACETS {
@@ -80,7 +79,7 @@ impl Growth {
     }
 }
 
-/// Logarithms of a facet's light and of the variance of its pixels, and one over the variance of the latter.
+/// Logarithms of a facet's light and of the variance of its pixels, and the inverse variance of the latter.
 fn point(facet: &FacetMeasurement, channel: usize) -> Option<[f64; 3]> {
     let (light, error) = (*facet.mean.as_ref()?.get(channel)?, *facet.standard_error.as_ref()?.get(channel)?);
     let variance = error * error * facet.pixels;
@@ -95,7 +94,7 @@ mod tests {
     use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
 
-    /// Facets of 60 pixels whose variance is in proportion to this power of the light.
+    /// Facets of 60 pixels with a variance proportional to this power of the light.
     fn facets(power: f64, seed: u64) -> Vec<FacetMeasurement> {
         let mut draws = ChaCha8Rng::seed_from_u64(seed);
         let mut facet = |k: usize| {

@@ -1,33 +1,33 @@
 //! Sides of marked panels along which no edge of the sheet lies.
 //!
-//! A panel that is marked whole ends at its outer sides: what lies beyond has another brightness or colour.
-//! Where nothing changes across a side, the sheet goes on beyond the corners, or does not reach them.
+//! A panel that is entirely marked ends at its outer sides, beyond which brightness or colour differs. If
+//! nothing changes across a side, the sheet continues beyond the corners or does not reach them.
 
 use crate::image::photograph::{Photograph, Pixel};
 use crate::image::placing::Grid;
 
-/// Strips on either side of a side from here to there, as parts of the panel, clear of the edge's blur; and
-/// how many pieces of them are compared.
+/// Range of the strips on either side of a side, and along it, relative to the panel and clear of the edge's
+/// blur; number of pieces that are compared.
 const STRIP: [f64; 2] = [0.03, 0.09];
 const ALONG: [f64; 2] = [0.05, 0.95];
 const PIECES: usize = 6;
-/// Points of a piece that are looked at, along and across.
+/// Sampled points of a piece, along and across.
 const POINTS: [usize; 2] = [12, 4];
-/// Pieces of a side that can be seen for it to be judged, and the share of them across which nothing changes
-/// in one that is open.
+/// Fewest visible pieces of a side for a judgement, and the fraction of them without a change across an open
+/// one.
 const SEEN_LEAST: usize = 4;
 const OPEN_SHARE: f64 = 0.75;
-/// Brightness beyond a side differs by more than this (natural logarithm) in some channel where the sheet
-/// ends: on the sheet it changes by less over a tenth of a panel, but at the crease.
+/// Least change of brightness (natural logarithm) in some channel where the sheet ends; on the sheet, except
+/// at the crease, it changes by less over a tenth of a panel.
 const STEP_LEAST: f64 = 0.07;
 
-/// A panel's sides away from the crease.
+/// A panel's sides other than the crease.
 const SIDES: [&str; 3] = ["the outer side", "the side at crease end 0", "the side at crease end 1"];
 
-/// The open sides of panels that are marked, in words, such as `the outer side of panel 0`.
+/// Names of the open sides of marked panels, such as `the outer side of panel 0`.
 ///
 /// # Arguments
-/// - `panels`: where they lie; the first side of each is its crease.
+/// - `panels`: their positions; the first side of each is its crease.
 #[must_use]
 pub fn open_sides(photograph: &Photograph, panels: &[Grid]) -> Vec<String> {
     let numbered = panels.iter().filter_map(|panel| Some((panel, panel.panel?)));
@@ -51,8 +51,8 @@ fn is_open(photograph: &Photograph, panel: &Grid, side: usize) -> bool {
     steps.len() >= SEEN_LEAST && alike as f64 >= OPEN_SHARE * steps.len() as f64
 }
 
-/// Means of the pieces of a strip along a side, `across` being its places between the crease and the outer
-/// side, or along the crease; none of a piece that lies outside the picture, or is clipped, by half.
+/// Means of the pieces of a strip along a side, `across` being its range of distances from the crease, or of
+/// positions along it; none for a piece of which half is outside the picture or clipped.
 fn pieces(photograph: &Photograph, panel: &Grid, side: usize, across: [f64; 2]) -> Vec<Option<[f64; 3]>> {
     let place =
         |[from, to]: [f64; 2], n: usize, count: usize| from + (to - from) * (n as f64 + 0.5) / count as f64;
@@ -78,7 +78,7 @@ fn pieces(photograph: &Photograph, panel: &Grid, side: usize, across: [f64; 2]) 
     (0..PIECES).map(piece).collect()
 }
 
-/// The greatest change of a channel, as a logarithm.
+/// The greatest change of a channel, in logarithms.
 fn step(inside: &[f64; 3], outside: &[f64; 3]) -> Option<f64> {
     let change = |(a, b): (&f64, &f64)| if *a > 0.0 && *b > 0.0 { (a / b).ln().abs() } else { f64::INFINITY };
     inside.iter().zip(outside).map(change).reduce(f64::max)
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
     use crate::image::placing::{Homography, Point};
 
-    /// A sheet of 160 x 120 px on a dark table, of which the panel is marked to `right` and `bottom`.
+    /// A sheet of 160 x 120 px on a dark table, its panel marked to `right` and `bottom`.
     fn open(right: f64, bottom: f64) -> Vec<String> {
         let is_sheet = |n: usize| (40..200).contains(&(n % 320)) && (40..160).contains(&(n / 320));
         let light: Vec<f32> = (0..320 * 240).flat_map(|n| [if is_sheet(n) { 0.5 } else { 0.1 }; 3]).collect();

@@ -1,9 +1,9 @@
 //! Pixels that do not show the sheet: dust, specks, a hair.
 //!
-//! What lies far from the plane through a facet's other pixels is left out, and the plane refitted until
-//! nothing changes. On clean Gaussian noise that leaves out one pixel in two million and costs less than 0.1
-//! % of the standard error, on 5 x 5 pixels too. A weighted fit such as Huber's (1.026 at its usual tuning)
-//! would still give every speck a say.
+//! Pixels far from the plane fitted to a facet's other pixels are excluded, and the plane refitted until
+//! nothing changes. With clean Gaussian noise that excludes one pixel in two million and raises the standard
+//! error by less than 0.1 %, even for 5 x 5 pixels. A weighted fit such as Huber's (1.026 at its usual
+//! tuning) would still admit some influence of every speck.
 
 use super::plane_fit::{Estimate, PixelSums, Run};
 
@@ -12,7 +12,7 @@ use super::plane_fit::{Estimate, PixelSums, Run};
 pub(super) struct Placed {
     /// Weight of each of its pixels.
     pub weight: f64,
-    /// Where it is from the facet's centre, in facet sides.
+    /// Its position relative to the facet's centre, in facet sides.
     pub u: f64,
     /// See `u`.
     pub v: f64,
@@ -20,24 +20,24 @@ pub(super) struct Placed {
     pub run: Run,
 }
 
-/// Further from the plane than this many standard deviations lies no pixel of the sheet.
+/// Largest distance from the plane of a pixel of the sheet, standard deviations.
 const REACH: f64 = 5.0;
-/// Fewer runs do not tell what is usual.
+/// Fewest runs that determine the usual scatter.
 const FEW: usize = 20;
-/// The spread is taken from about this many runs: its error, a few percent, moves the reach by as little.
+/// Runs from which the scatter is estimated: its error, a few percent, changes the reach as little.
 const SPREAD_RUNS: usize = 500;
 /// Three quarters of normally distributed numbers lie within this many standard deviations.
 const THREE_QUARTERS: f64 = 1.150_349_380_376_008;
-/// Least spread as a share of the root mean square: where most pixels of a flat 8-bit facet hold one number,
-/// those that hold the next are no outliers. Dust on less than about a sixth of a facet is still found.
+/// Least standard deviation relative to the root mean square: where most pixels of a flat 8-bit facet hold
+/// one number, those with the next one are no outliers. Dust on less than a sixth of a facet is still found.
 const LEAST_SPREAD: f64 = 0.5;
-/// Deviations below this part of the light may be the sheet's own, where there is no noise: light is not
-/// quite a plane.
+/// Deviations below this fraction of the light may be real, where there is no noise: light is not quite a
+/// plane.
 const OWN: f64 = 0.005;
-/// Each round finds what a larger outlier hid; dust takes two or three.
+/// Each round uncovers what a larger outlier hid; dust takes two or three.
 const ROUNDS: usize = 10;
 
-/// Sums over the runs that lie near the plane fitted to them in all channels, and which these are.
+/// Sums over the runs near the plane fitted to them in all channels, and which these are.
 pub(super) fn without_outliers(placed: &[Placed], channels: usize) -> (PixelSums, Vec<bool>) {
     let mut kept = vec![true; placed.len()];
     let mut sums = sum(placed, &kept);
@@ -80,14 +80,14 @@ fn near_plane(placed: &[Placed], kept: &[bool], sums: &PixelSums, channels: usiz
 }
 
 impl Placed {
-    /// How far the run lies from a plane, as its pixels would one by one: their mean has less noise.
+    /// Deviation of the run from a plane, scaled to that of single pixels: their mean has less noise.
     #[inline]
     fn deviation(&self, channel: usize, plane: &Estimate) -> f64 {
         (self.run.mean(channel) - plane.plane(self.u, self.v)) * self.run.pixels().sqrt()
     }
 }
 
-/// The standard deviation of normally distributed numbers among which are some others.
+/// The standard deviation of normally distributed numbers contaminated by some others.
 fn spread(mut deviations: Vec<f64>) -> f64 {
     let count = deviations.len();
     if count == 0 {
@@ -106,7 +106,7 @@ mod tests {
     use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
 
-    /// A facet of `side` x `side` pixels under light 100 + 20 u - 10 v with noise of 1, where not `speck`.
+    /// A facet of `side` x `side` pixels with light 100 + 20 u - 10 v and noise of 1, except at `speck`.
     fn facet(side: usize, seed: u64, speck: impl Fn(usize, usize) -> Option<f64>) -> Vec<Placed> {
         let mut noise = ChaCha8Rng::seed_from_u64(seed);
         let place = |k: usize| (k as f64 + 0.5) / side as f64 - 0.5;
@@ -158,7 +158,7 @@ mod tests {
         assert!(errors.iter().all(|error| *error < 1.15 * errors[0]), "{errors:?}");
     }
 
-    /// Two numbers side by side, as a flat facet of an 8-bit picture has them.
+    /// Two adjacent numbers, as in a flat facet of an 8-bit picture.
     #[test]
     fn steps_of_a_stored_number_are_no_outliers() {
         let placed = facet(20, 0, |x, _| Some(if x % 5 == 0 { 101.0 } else { 100.0 }));

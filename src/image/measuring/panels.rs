@@ -1,4 +1,4 @@
-//! What a photograph shows of the panels of a sheet.
+//! Measurement of the panels of a sheet.
 
 use super::facets::measure;
 use super::measurement::FacetMeasurement;
@@ -9,19 +9,18 @@ use crate::error::Result;
 use crate::image::photograph::Photograph;
 use crate::image::placing::{Grid, Homography};
 
-/// What a photograph shows of panels.
+/// Measurement of panels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredPanels {
-    /// The facets as [`measure`] has them, their standard errors with what rounding and noise that pixels
-    /// share add to them.
+    /// The facets from [`measure`], with rounding and noise shared by pixels added to their standard errors.
     pub facets: Vec<FacetMeasurement>,
-    /// How many neighbouring pixels make one independent number, per channel.
+    /// Number of neighbouring pixels per independent number, per channel.
     pub pixels_sharing_noise: Vec<f64>,
-    /// What was done to the picture, if its noise shows it.
+    /// Processing of the picture that its noise reveals.
     pub processing: Option<Processing>,
 }
 
-/// Measures all facets of one panel or more, and what their noise tells.
+/// Measures all facets of one or more panels, and analyses their noise.
 ///
 /// # Arguments
 /// - `panels`, `margin_px`: as for [`measure`].

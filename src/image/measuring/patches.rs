@@ -6,24 +6,22 @@ use crate::Result;
 use crate::image::photograph::Photograph;
 use crate::image::placing::{CHART_CORNERS, Grid, Homography, Lens, Point, check_inside};
 
-/// The part of a patch's width and height that is measured: frames between patches, blur and corners a little
-/// off stay outside.
+/// Measured fraction of a patch's width and height, clear of frames, blur and inaccurate corners.
 const MIDDLE: f64 = 0.5;
 
 /// Measures the middle of every patch of a chart: the mean over half its width and half its height.
 ///
 /// # Arguments
-/// - `region`: what the corners bound, named in errors.
+/// - `region`: name of what the corners bound, for errors.
 /// - `corners`: outer corners of the block of patches, by the order of [`CHART_CORNERS`]; px.
-/// - `lens`: through which they are seen.
+/// - `lens`: distortion of the picture.
 /// - `rows`, `cols`: patches, evenly spaced.
 ///
 /// # Returns
 /// Patches row by row from the first.
 ///
 /// # Errors
-/// [`Error::Corners`](crate::Error::Corners) if the corners are not those of a convex quadrilateral in the
-/// picture.
+/// [`Error::Corners`](crate::Error::Corners) unless the corners form a convex quadrilateral in the picture.
 ///
 /// # Example
 /// ```
@@ -54,7 +52,7 @@ pub fn measure_patches(
     measure(photograph, &middles.collect::<Result<Vec<_>>>()?, 0.0)
 }
 
-/// The eight orders in which four corners can be read round a chart, that in which they are given first.
+/// The eight orders in which four corners can be read around a chart, the original one first.
 #[must_use]
 pub fn corner_orders([a, b, c, d]: [Point; 4]) -> [[Point; 4]; 8] {
     let turned = |[a, b, c, d]: [Point; 4]| [[a, b, c, d], [b, c, d, a], [c, d, a, b], [d, a, b, c]];

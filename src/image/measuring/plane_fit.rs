@@ -1,16 +1,15 @@
-//! The mean of a facet from pixels that do not cover it evenly.
+//! The mean of a facet whose pixels do not cover it evenly.
 //!
-//! Pixels on a panel's edges are left out, and so are clipped ones; where the light falls off along the
-//! facet, the plain mean of the others is off. A plane fitted to them in panel coordinates is not: its value
-//! at the facet's centre is the facet's mean to first order. What remains about the plane is noise, not the
-//! gradient.
+//! Pixels on a panel's edges and clipped ones are excluded, which biases the plain mean of the others where
+//! light varies along the facet. A plane fitted to them in panel coordinates avoids this: its value at the
+//! facet's centre is the facet's mean to first order, and its residuals contain noise without the gradient.
 
-/// Fewer pixels do not carry a plane (three numbers) and a measure of its noise.
+/// Fewest pixels that determine a plane (three numbers) and its noise.
 const PLANE_PIXELS: f64 = 6.0;
-/// Second moments of the pixels' places, (facet side)⁴; a facet covered evenly has 1/144.
+/// Least determinant of the pixels' second moments, (facet side)⁴; a facet covered evenly has 1/144.
 const FLAT: f64 = 1e-7;
 
-/// Weighted sums over the pixels of one facet; (u, v) from the facet's centre, its sides as units.
+/// Weighted sums over the pixels of one facet; (u, v) relative to the facet's centre, in units of its sides.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PixelSums {
     w: f64,
@@ -32,10 +31,10 @@ struct LightSums {
     wyv: f64,
 }
 
-/// A few pixels beside each other, near enough to share one weight and one place.
+/// A few adjacent pixels, close enough to share one weight and one position.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Run {
-    /// How many.
+    /// Number of pixels.
     pixels: usize,
     /// Sum of their columns.
     columns: usize,
@@ -55,7 +54,7 @@ impl Run {
         }
     }
 
-    /// How many pixels there are.
+    /// Number of pixels.
     #[inline]
     pub fn pixels(&self) -> f64 {
         self.pixels as f64
@@ -67,23 +66,23 @@ impl Run {
         self.light[channel].0 / self.pixels()
     }
 
-    /// Where their middle is, px; NaN without pixels.
+    /// Column coordinate of their middle, px; NaN without pixels.
     pub fn x(&self) -> f64 {
         self.columns as f64 / self.pixels() + 0.5
     }
 }
 
-/// The mean of a facet in one channel and its standard error, if the pixels tell it.
+/// The mean of a facet in one channel, and its standard error if the pixels determine it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Estimate {
     pub mean: f64,
     pub standard_error: Option<f64>,
-    /// Of the plane, along u and v; zero if there are too few pixels for one.
+    /// Of the plane, along u and v; zero if pixels are too few for one.
     slopes: [f64; 2],
 }
 
 impl PixelSums {
-    /// Adds pixels of weight `w` each, about (u, v).
+    /// Adds pixels of weight `w` each, around (u, v).
     #[inline]
     pub fn add(&mut self, w: f64, u: f64, v: f64, run: &Run) {
         let sum = w * run.pixels();
@@ -102,7 +101,7 @@ impl PixelSums {
         }
     }
 
-    /// The number of equally weighted pixels that would average as well: (Σw)²/Σw².
+    /// Effective number of equally weighted pixels: (Σw)²/Σw².
     fn pixels(&self) -> f64 {
         self.w * self.w / self.ww
     }
@@ -132,8 +131,8 @@ impl PixelSums {
 }
 
 impl Estimate {
-    /// From the mean square residual about `fitted` numbers, with `variance_factor` for reaching beyond the
-    /// pixels.
+    /// From the mean square residual of a fit of `fitted` numbers, with `variance_factor` for extrapolation
+    /// beyond the pixels.
     fn new(plane: [f64; 3], square_residual: f64, n: f64, fitted: f64, variance_factor: f64) -> Self {
         let spare = n - fitted;
         let standard_error =
@@ -142,7 +141,7 @@ impl Estimate {
         Self { mean, standard_error, slopes: [slope_u, slope_v] }
     }
 
-    /// The plane's value at (u, v) from the facet's centre.
+    /// The plane's value at (u, v) relative to the facet's centre.
     #[inline]
     pub fn plane(&self, u: f64, v: f64) -> f64 {
         self.mean + self.slopes[0] * u + self.slopes[1] * v
@@ -183,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_gradient_is_no_noise_and_no_bias() {
-        // the left half of a facet under light that grows by 2 along u
+        // the left half of a facet with light that grows by 2 along u
         let half: Vec<_> =
             (0..50).map(|k| (1.0, -0.5 + f64::from(k % 5) / 10.0, f64::from(k / 5) / 10.0 - 0.45)).collect();
         let half: Vec<_> = half.into_iter().map(|(w, u, v)| (w, u, v, 7.0 + 2.0 * u)).collect();

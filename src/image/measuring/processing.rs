@@ -1,4 +1,4 @@
-//! What a program did to a picture that passes for a sensor's own numbers, as its noise tells.
+//! Detects, from its noise, that a picture presented as a sensor's own numbers was processed.
 
 use super::measurement::FacetMeasurement;
 use super::mixed_channels::are_channels_mixed;
@@ -7,21 +7,21 @@ use crate::image::numbers::Transfer;
 use crate::image::photograph::Photograph;
 use crate::image::placing::Homography;
 
-/// What was done to a picture.
+/// Processing of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Processing {
-    /// Its numbers follow the light by a curve such as sRGB's.
+    /// A curve such as sRGB's was applied.
     Curve,
     /// A matrix mixed its channels.
     Matrix,
 }
 
-/// What was done to a photograph that was read as linear, and nothing of it undone; none if nothing shows, or
-/// noise does not.
+/// Processing of a photograph that was read as linear with nothing undone; none if there is no sign of it, or
+/// no noise.
 ///
 /// # Arguments
-/// - `panels`: where the sheet is.
-/// - `facets`: as [`measure`](super::measure) gives them.
+/// - `panels`: positions on the sheet.
+/// - `facets`: from [`measure`](super::measure).
 pub(super) fn processing(
     photograph: &Photograph,
     panels: &[Homography],

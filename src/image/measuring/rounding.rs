@@ -1,23 +1,23 @@
-//! What rounding adds to the errors of facets in a JPEG.
+//! Adds the rounding error of a JPEG to the errors of facets.
 //!
-//! A JPEG has no noise left by which the rounding of one pixel is another than its neighbour's: it was
-//! smoothed away, and a block of pixels is stored as a few waves, themselves rounded. So rounding moves a
-//! block as a whole, which neither the spread of pixels nor that of their means over smaller blocks shows.
+//! In a JPEG, noise was smoothed away that would make the rounding errors of neighbouring pixels independent,
+//! and a block of pixels is stored as a few waves, themselves rounded. So rounding shifts whole blocks, which
+//! neither the scatter of pixels nor that of their means over smaller blocks reveals.
 
 use super::measurement::FacetMeasurement;
 use crate::image::photograph::PhotographInfo;
 
-/// Pixels that are rounded alike: of colours, which most JPEGs store for two rows and columns at once, 16 x
-/// 16 (ITU-T T.81, section A.1.1).
+/// Pixels rounded together: most JPEGs store colours for two rows and columns at once, hence 16 x 16 (ITU-T
+/// T.81, section A.1.1).
 const ALIKE: f64 = 256.0;
 
-/// A facet with the error of rounding among its standard errors, if the picture is a JPEG.
+/// A facet with the rounding error included in its standard errors, if the picture is a JPEG.
 pub(super) fn with_rounding(facet: FacetMeasurement, info: &PhotographInfo) -> FacetMeasurement {
     let (Some(mean), Some(errors)) = (&facet.mean, &facet.standard_error) else { return facet };
     if !info.format.starts_with("JPEG") {
         return facet;
     }
-    // a number that is rounded is off by up to half a step, and by nothing more often than by anything else
+    // rounding errors are uniformly distributed over plus and minus half a step
     let off = 1.0 / ((info.white_level[0] - info.black_level[0]) * 12_f64.sqrt());
     let of_stored = |light: f64| off * info.transfer_used.slope(light);
     let of_block = match (&info.undone, mean.as_slice()) {
@@ -51,8 +51,7 @@ mod tests {
         PhotographInfo { transfer_used: Transfer::Srgb, white_level: vec![255.0], ..new }
     }
 
-    /// At half of the way to white the curve of sRGB has a slope of 0.9256: 0.9256 / 255 / sqrt(12) is halved
-    /// by four blocks.
+    /// Halfway to white the curve of sRGB has a slope of 0.9256; four blocks halve 0.9256 / 255 / sqrt(12).
     #[test]
     fn blocks_are_rounded_alike() {
         let errors = with_rounding(facet(), &info("JPEG, 8-bit, RGB")).standard_error.unwrap();

@@ -1,11 +1,11 @@
-//! How much noise neighbouring pixels share.
+//! Noise shared by neighbouring pixels.
 //!
-//! Interpolating a sensor's mosaic, scaling and JPEG spread the noise of one pixel over several: the mean of
-//! n of them is less certain than σ/√n. How many pixels make one independent number is measured in the
-//! picture itself, by comparing the variance of means over blocks of pixels with that of the pixels.
+//! Demosaicing, scaling and JPEG spread the noise of one pixel over several, so the mean of n of them is less
+//! certain than σ/√n. The number of pixels per independent number is measured in the picture itself: the
+//! variance of means over blocks of pixels is compared with that of the pixels.
 //!
-//! The light itself varies too, and smoothly. Nine blocks with the weights (1, -2, 1) along both directions
-//! cancel it: every sum of a function of x and one of y, and the product of two linear ones.
+//! The light itself also varies, but smoothly. Nine blocks with the weights (1, -2, 1) in both directions
+//! cancel every sum of a function of x and one of y, and the product of two linear ones.
 
 use ndarray::Array2;
 use rayon::prelude::*;
@@ -13,29 +13,29 @@ use rayon::prelude::*;
 use crate::image::photograph::{Photograph, Pixel};
 use crate::image::placing::{Homography, Quadrilateral};
 
-/// Width and height of a block, px: wider than what JPEG and demosaicing spread. In small panels it is less.
+/// Width and height of a block, px: wider than the spread of JPEG and demosaicing; less in small panels.
 const BLOCK_PX: usize = 12;
-/// Smaller blocks hold no more than the noise shared.
+/// Smaller blocks do not contain all of the shared noise.
 const SMALLEST_BLOCK_PX: usize = 4;
-/// Blocks of a contrast stand two block widths apart, so that they share no noise.
+/// Distance between the blocks of a contrast, block widths, so that they share no noise.
 const SPACING: usize = 2;
 /// Width and height of a contrast's nine blocks, block widths.
 const SPAN: usize = 2 * SPACING + 1;
-/// The weights of the blocks in each direction; those of all nine have the square sum 36.
+/// The weights of the blocks in each direction; the squares of all nine products sum to 36.
 const WEIGHTS: [f64; 3] = [1.0, -2.0, 1.0];
-/// Contrasts that are looked at in a panel: their median is certain to 6 %.
+/// Contrasts sampled per panel: their median is accurate to 6 %.
 const CONTRASTS: usize = 500;
-/// Fewer contrasts say nothing.
+/// Fewest contrasts for a result.
 const FEW: usize = 30;
 /// Median of the χ² distribution with one degree of freedom, whose mean is 1.
 const CHI_SQUARE_MEDIAN: f64 = 0.454_936;
 
-/// How many pixels make one independent number, per channel: 1 where every pixel's noise is its own.
+/// Number of pixels per independent number, per channel: 1 if the noise of pixels is independent.
 ///
-/// It is the sum of the noise's correlation over all distances, px². Standard errors that take every pixel's
-/// noise for its own are too small by its square root. 1 for a mosaic, whose pixels are the sensor's own, and
-/// where a panel is too small to tell (less than 40 px wide or high). What moves all pixels alike, as
-/// rounding does in a JPEG, is not seen: see [`measure_panels`](super::measure_panels).
+/// It is the sum of the noise's correlation over all distances, px². Standard errors that assume independent
+/// noise are too small by its square root. It is 1 for a mosaic, whose pixels are the sensor's own, and where
+/// a panel is too small to measure it (less than 40 px wide or high). Shifts common to all pixels, such as
+/// rounding in a JPEG, are not detected: see [`measure_panels`](super::measure_panels).
 ///
 /// # Example
 /// ```
@@ -62,7 +62,7 @@ pub fn pixels_sharing_noise(photograph: &Photograph, panels: &[Homography]) -> V
     (0..channels).map(|channel| shared(ratios.iter().map(|ratio| ratio[channel]).collect(), block)).collect()
 }
 
-/// Pixels an independent number, from the contrasts' ratios of block variance to pixel variance.
+/// Pixels per independent number, from the contrasts' ratios of block variance to pixel variance.
 fn shared(mut ratios: Vec<f64>, block: usize) -> f64 {
     if ratios.len() < FEW {
         return 1.0;
@@ -70,12 +70,13 @@ fn shared(mut ratios: Vec<f64>, block: usize) -> f64 {
     let middle = ratios.len() / 2;
     let (_, median, _) = ratios.select_nth_unstable_by(middle, f64::total_cmp);
     let in_block = (*median / CHI_SQUARE_MEDIAN).max(1.0);
-    // at a block's edges a part is missing: this one if noise is averaged over squares, `width` px wide
+    // corrects for correlation cut off at a block's edges, as if noise were averaged over squares `width` px
+    // wide
     let width = in_block.sqrt();
     in_block / (1.0 - (width - width.recip()) / (3 * block) as f64).powi(2)
 }
 
-/// Nine blocks of pixels, from the top left one's corner on.
+/// Nine blocks of pixels, identified by the top left corner.
 #[derive(Clone, Copy)]
 struct Contrast {
     x: usize,
@@ -83,14 +84,14 @@ struct Contrast {
     block: usize,
 }
 
-/// Width of a panel's blocks, so that two contrasts find room side by side.
+/// Width of a panel's blocks, such that two contrasts fit side by side.
 fn block_px(photograph: &Photograph, panel: &Homography) -> usize {
     let outline = Quadrilateral::new(panel.corners());
     let (rows, columns) = (outline.rows(photograph.height()), outline.columns(photograph.width()));
     (rows.len().min(columns.len()) / (2 * SPAN)).min(BLOCK_PX)
 }
 
-/// The contrasts of blocks this wide that lie in a panel, evenly spread; none of blocks that are too small.
+/// The contrasts of blocks of this width inside a panel, evenly spaced; none if the blocks are too small.
 fn contrasts(photograph: &Photograph, panel: &Homography, block: usize) -> Vec<Contrast> {
     let (width, height) = (photograph.width(), photograph.height());
     let outline = Quadrilateral::new(panel.corners());
@@ -109,8 +110,8 @@ fn contrasts(photograph: &Photograph, panel: &Homography, block: usize) -> Vec<C
 }
 
 impl Contrast {
-    /// The square of the contrast of the blocks' sums over the sum of the squared contrasts of their pixels;
-    /// none if a pixel is not usable or there is no noise.
+    /// The squared contrast of the blocks' sums over the sum of the squared contrasts of their pixels; none
+    /// if a pixel is unusable or there is no noise.
     fn ratio(self, photograph: &Photograph) -> Option<[f64; 3]> {
         let mut contrasts = Array2::from_elem((self.block, self.block), [0.0; 3]);
         for (y_weight, row) in WEIGHTS.iter().zip(0..) {
@@ -128,7 +129,7 @@ impl Contrast {
         ratios.iter().all(|ratio| ratio.is_finite()).then_some(ratios)
     }
 
-    /// Adds the weighted light of a block's pixels to each pixel's contrast; none if one is not usable.
+    /// Adds the weighted light of a block's pixels to each pixel's contrast; none if one is unusable.
     fn add_block(
         self,
         photograph: &Photograph,

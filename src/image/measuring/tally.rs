@@ -1,20 +1,20 @@
-//! The pixels of one facet, and what they add up to.
+//! The pixels of one facet, and its measurement from them.
 
 use super::measurement::{FacetMeasurement, PixelRun};
 use super::outliers::{Placed, without_outliers};
 use super::plane_fit::Estimate;
 use crate::image::photograph::Pixel;
 
-/// Where a larger part of a facet's pixels is clipped, the others are those that noise left below the level:
-/// a tenth moves the mean by 0.2 of a pixel's standard deviation, a half by 0.8, which is many times the
-/// mean's own. Hot pixels are fewer; a single one says nothing of a small facet.
+/// Largest clipped fraction of a facet's pixels: the others are those that noise left below the level. A
+/// tenth shifts the mean by 0.2 of a pixel's standard deviation, a half by 0.8, many times the mean's own.
+/// Hot pixels are fewer; a single one does not invalidate a small facet.
 const MOST_CLIPPED: f64 = 0.02;
 
-/// Pixels as they are found, a run at a time.
+/// Pixels, collected one run at a time.
 #[derive(Default)]
 pub(super) struct Tally {
     placed: Vec<Placed>,
-    /// Of each of `placed`, the part of its pixels that lies in the facet, and where they are.
+    /// For each of `placed`, the fraction of its pixels in the facet, and their positions.
     runs: Vec<(f64, PixelRun)>,
     clipped: usize,
     not_finite: usize,
@@ -22,7 +22,7 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    /// Takes a run of pixels, of each of which the part `overlap` is in the facet.
+    /// Adds a run of pixels; the fraction `overlap` of each is in the facet.
     pub fn add(&mut self, placed: Placed, overlap: f64, pixels: PixelRun) {
         self.placed.push(placed);
         self.runs.push((overlap, pixels));
@@ -41,7 +41,7 @@ impl Tally {
         }
     }
 
-    /// What they say about the facet.
+    /// The facet's measurement.
     pub fn finish(mut self, channels: usize) -> FacetMeasurement {
         let (sums, kept) = without_outliers(&self.placed, channels);
         let (mut pixels, mut outliers) = (0.0, 0);

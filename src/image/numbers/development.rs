@@ -1,4 +1,4 @@
-//! What a camera does to its numbers on the way to a picture for the eye, and how that is undone.
+//! How a camera develops its numbers into a picture for the eye, and the inverse.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -15,11 +15,11 @@ pub struct Development {
     linear_srgb_to_balanced: Matrix3<f64>,
 }
 
-/// A matrix whose determinant is this small a part of the product of its rows' lengths loses the colours.
+/// A matrix is singular if its determinant is this small relative to the product of its rows' lengths.
 const SINGULAR: f64 = 1e-6;
 
 impl Development {
-    /// The development by these factors and this matrix.
+    /// The development with these gains and this matrix.
     ///
     /// # Arguments
     /// - `white_balance_gains`: factors of camera red, green and blue, above 0.
@@ -47,8 +47,8 @@ impl Development {
         Ok(Self { white_balance_gains, camera_to_linear_srgb, linear_srgb_to_balanced: inverse })
     }
 
-    /// Camera RGB of linear sRGB, none if a balanced channel had reached 1 before the matrix: cameras cut
-    /// there.
+    /// Camera RGB of linear sRGB; none if a balanced channel had reached 1 before the matrix, where cameras
+    /// clip.
     #[must_use]
     #[inline]
     pub fn camera_rgb(&self, linear_srgb: [f64; 3]) -> Option<[f64; 3]> {
@@ -60,8 +60,8 @@ impl Development {
             .then(|| [0, 1, 2].map(|channel| balanced[channel] / gains[channel]))
     }
 
-    /// Standard errors of camera RGB, each number of linear sRGB having an error of its own, as large as
-    /// `of_number` says.
+    /// Standard errors of camera RGB, for independent errors of the numbers of linear sRGB as large as
+    /// `of_number` returns.
     pub(in crate::image) fn errors(&self, camera_rgb: [f64; 3], of_number: impl Fn(f64) -> f64) -> [f64; 3] {
         let gains = self.white_balance_gains;
         let balanced = Vector3::from_fn(|channel, _| gains[channel] * camera_rgb[channel]);
@@ -73,7 +73,7 @@ impl Development {
         })
     }
 
-    /// The factors of camera red, green and blue.
+    /// The gains of camera red, green and blue.
     #[must_use]
     pub fn white_balance_gains(&self) -> [f64; 3] {
         self.white_balance_gains

@@ -1,4 +1,4 @@
-//! What a stored number means: black and white level, curve, and what a camera made of its own colours.
+//! The meaning of stored numbers: black and white level, curve, and the camera's development.
 
 mod development;
 mod scale;

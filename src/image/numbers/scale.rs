@@ -1,20 +1,20 @@
-//! Black level, white level and curve of a picture: what a stored number means.
+//! Black level, white level and curve of a picture, which define its stored numbers.
 
 use super::development::Development;
 use super::transfer::Transfer;
 use crate::{Error, Result};
 
-/// How to understand the stored numbers of a picture.
+/// How to interpret the stored numbers of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ReadOptions {
     /// The curve they follow.
     pub transfer: Transfer,
-    /// The stored number that means no light; 0 if not given.
+    /// The stored number for no light; by default 0.
     pub black_level: Option<f64>,
-    /// The stored number that means 1, from which on a sample is clipped. If not given: 255 or 65535 for
-    /// integers; for floats 1, and nothing is clipped.
+    /// The stored number for 1, at and above which a sample is clipped. By default 255 or 65535 for integers;
+    /// for floats 1, without clipping.
     pub white_level: Option<f64>,
-    /// White balance and matrix that made camera RGB linear sRGB, to be undone.
+    /// White balance and matrix from camera RGB to linear sRGB, to be undone.
     pub development: Option<Development>,
 }
 
@@ -25,17 +25,17 @@ pub(in crate::image) struct Scale {
     pub black: f64,
     pub white: f64,
     clipped_from: f64,
-    /// A developed picture's integers up to this are clipped: its matrix makes numbers below zero, which are
-    /// stored as zero.
+    /// Integers of a developed picture up to this are clipped: its matrix yields negative numbers, stored as
+    /// zero.
     clipped_to: f64,
     bits: u32,
 }
 
-/// The light of a clipped number: anything beyond the others.
+/// The light of a clipped number.
 const CLIPPED: f64 = f64::INFINITY;
 
 impl Scale {
-    /// Floats that are light already.
+    /// Floats that are already linear light.
     pub const LINEAR: Self = Self {
         transfer: Transfer::Linear,
         black: 0.0,
@@ -67,13 +67,13 @@ impl Scale {
         Ok(Self { transfer, black, white, clipped_from, clipped_to, bits })
     }
 
-    /// The same, but clipped from this stored number on.
+    /// The same, but clipped at and above this stored number.
     pub fn ending_at(self, stored: f64) -> Self {
         Self { clipped_from: self.clipped_from.min(stored), ..self }
     }
 
-    /// The same, but no light at this stored number. Where that is above white, as in floats that are a
-    /// sensor's numbers, white stays as far above it as it was.
+    /// The same, with this stored number for no light. If it is above white, as for floats that are a
+    /// sensor's numbers, white moves up with it.
     pub fn with_black(self, black: f64) -> Self {
         let white = if self.white > black { self.white } else { black + self.white - self.black };
         Self { black, white, ..self }
@@ -84,7 +84,7 @@ impl Scale {
         stored >= self.clipped_from
     }
 
-    /// Linear light of a stored number; infinite if it is clipped, NaN for what is not finite.
+    /// Linear light of a stored number; infinite if it is clipped, NaN if it is not finite.
     pub fn linear(&self, stored: f64) -> f64 {
         if !stored.is_finite() {
             f64::NAN

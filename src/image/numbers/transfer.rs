@@ -2,21 +2,21 @@
 
 use crate::Error;
 
-/// How the stored numbers follow the light.
+/// Relation of stored numbers to light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Transfer {
-    /// What the file says; if it says nothing [`Transfer::Srgb`] for eight bits, [`Transfer::Linear`] for
-    /// everything deeper.
+    /// As the file states; otherwise [`Transfer::Srgb`] for eight bits, [`Transfer::Linear`] for greater
+    /// depths.
     #[default]
     Auto,
-    /// In proportion.
+    /// Proportional.
     Linear,
-    /// By the curve of sRGB, [`srgb_to_linear`].
+    /// The curve of sRGB, [`srgb_to_linear`].
     Srgb,
 }
 
 impl Transfer {
-    /// What [`Transfer::Auto`] stands for in a picture of this depth.
+    /// The meaning of [`Transfer::Auto`] at this depth.
     pub(super) fn resolve(self, bits: u32) -> Self {
         match self {
             Self::Auto if bits == 8 => Self::Srgb,
@@ -30,7 +30,7 @@ impl Transfer {
         if self == Self::Srgb { srgb_to_linear(stored) } else { stored }
     }
 
-    /// How much more light a stored value has that is a little larger, at this linear light.
+    /// Derivative of light with respect to the stored value, at this linear light.
     pub(in crate::image) fn slope(self, light: f64) -> f64 {
         match self {
             Self::Srgb if light > 0.04045 / 12.92 => 2.4 / 1.055 * light.powf(1.4 / 2.4),
@@ -69,7 +69,7 @@ impl std::str::FromStr for Transfer {
 
 /// Linear light of an sRGB value, both 1 at white.
 ///
-/// Values outside [0, 1] follow the same formula: below zero the straight part, above one the power.
+/// Values outside [0, 1] follow the same formula: the linear part below zero, the power above one.
 ///
 /// # Source
 /// IEC 61966-2-1:1999, section 5.2.

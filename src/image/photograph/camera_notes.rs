@@ -1,4 +1,4 @@
-//! What a camera wrote beside the picture.
+//! The camera's notes in the picture file.
 
 use super::orientation::Orientation;
 use super::taken::Taken;
@@ -14,30 +14,30 @@ pub struct CameraNotes {
     pub exposure_s: Option<f64>,
     /// Focal length over aperture.
     pub f_number: Option<f64>,
-    /// Focal length that shows as much on film of 36 x 24 mm, mm.
+    /// Focal length of equal angle of view on film of 36 x 24 mm, mm.
     pub focal_35mm: Option<f64>,
     /// ISO sensitivity.
     pub iso: Option<u32>,
     /// Rows of the matrix from XYZ to its R, G and B in daylight, as DNG has it.
     pub xyz_to_camera: Option<[[f64; 3]; 3]>,
-    /// Where, when and in which light it was taken.
+    /// Place, time and light.
     pub taken: Taken,
-    /// How the picture was stored.
+    /// Orientation of the stored picture.
     pub orientation: Orientation,
-    /// What was wrong but did no harm.
+    /// Harmless faults that were found.
     pub notes: Vec<String>,
 }
 
-/// Share of the light from a surface that reaches the middle of the sensor behind a usual lens; ISO 12232,
-/// annex on exposure.
+/// Fraction of the light from a surface that reaches the middle of the sensor behind a typical lens; ISO
+/// 12232, annex on exposure.
 const LENS: f64 = 0.65;
-/// Exposure that fills a sensor of sensitivity 1, lx s; ISO 12232, saturation-based speed.
+/// Exposure that saturates a sensor of sensitivity 1, lx s; ISO 12232, saturation-based speed.
 const SATURATION_LX_S: f64 = 78.0;
 
 impl CameraNotes {
-    /// Value of a perfect white diffuser under 1000 lx, that of a full sensor being 1, by exposure time,
-    /// aperture and sensitivity; none if not all three are said. That standard lets makers state other
-    /// sensitivities than this one, so that a sensor may be full sooner or later.
+    /// Value of a perfect white diffuser under 1000 lx, relative to a saturated sensor, from exposure time,
+    /// aperture and sensitivity; none unless all three are known. The standard lets makers state
+    /// sensitivities by other definitions, so a sensor may saturate sooner or later.
     ///
     /// # Source
     /// ISO 12232:2019, saturation-based speed; a diffuser under E lx has a luminance of E / π.
@@ -48,7 +48,7 @@ impl CameraNotes {
         Some(exposure_lx_s * iso / SATURATION_LX_S).filter(|white| *white > 0.0)
     }
 
-    /// Maker and model, empty where they are not said.
+    /// Maker and model, empty if not recorded.
     #[must_use]
     pub fn called(&self) -> (String, String) {
         (self.make.clone().unwrap_or_default(), self.model.clone().unwrap_or_default())
@@ -59,7 +59,7 @@ impl CameraNotes {
 mod tests {
     use super::*;
 
-    /// In bright sun, about 100 klx, f/16 and the reciprocal of the sensitivity just do not clip white.
+    /// In bright sun, around 100 klx, f/16 and the reciprocal of the sensitivity barely avoid clipping white.
     #[test]
     fn the_rule_of_sunny_sixteen_exposes_white_to_about_one() {
         let notes = |iso| CameraNotes {

@@ -1,39 +1,38 @@
-//! The level of no light, where it was not subtracted: the darkest numbers of the whole picture, which are
-//! then alike in all channels.
+//! The level of no light, if it was not subtracted: the darkest numbers of the whole picture, which are then
+//! equal in all channels.
 //!
-//! Where no light falls a sensor's numbers scatter about one level, the same for red, green and blue. What
-//! little light there is elsewhere has a colour: in the camera's own numbers even a grey surface has two to
-//! three times as much green as red.
+//! In the absence of light a sensor's numbers scatter around one level, the same for red, green and blue.
+//! Even weak light has a colour: in the camera's own numbers a grey surface has two to three times as much
+//! green as red.
 
 use super::sampled::Sampled;
 
-/// Parts of the pixels that are certainly among the darkest: what lies between them tells how much these
-/// scatter.
+/// Quantiles certainly among the darkest numbers; their difference measures the scatter.
 const LEAST: [f64; 2] = [1e-3, 1e-2];
-/// Least part of the pixels in the densest of steps as wide as the darkest scatter.
+/// Least fraction of the pixels in the densest histogram step, whose width is that of the scatter.
 const DENSE: f64 = 3e-3;
-/// Beyond so many steps nothing is dark.
+/// Steps of the histogram.
 const MOST_STEPS: usize = 400;
-/// How far up a peak must be followed by fewer pixels, steps, and how many fewer.
+/// Range above a peak, steps, and largest fraction of its pixels to which they must fall there.
 const BEYOND: usize = 6;
 const FEWER: f64 = 0.6;
-/// Channels are alike within this part of the level and this part of what the numbers scatter.
+/// Largest difference between channels, relative to the level and to the scatter.
 const ALIKE: f64 = 0.05;
 const ALIKE_SCATTER: f64 = 0.3;
-/// A level below this part of the brightest numbers does no harm; one above that part is no darkness.
+/// Limits of the level relative to the brightest numbers: below the first it is harmless, above the second it
+/// is not dark.
 const HARMLESS: f64 = 3e-3;
 const DARK: f64 = 0.25;
-/// The part of the pixels that are not brighter than the brightest.
+/// Quantile taken as the brightest.
 const BRIGHTEST: f64 = 0.99;
-/// Part of normally distributed numbers within one standard deviation.
+/// Fraction of normally distributed numbers within one standard deviation.
 const ONE_SD: f64 = 0.683;
-/// How far from its middle a peak's numbers are taken, standard deviations, and how often the middle is
-/// sought.
+/// Range of a peak's numbers around its middle, standard deviations, and iterations to find the middle.
 const REACH: f64 = 2.0;
 const ROUNDS: usize = 4;
 
-/// The number of no light in each of several channels, above `black`, which was taken for it; none if none
-/// shows.
+/// The number for no light in each of several channels, above the assumed `black`; none if there is no sign
+/// of it.
 pub(super) fn darkest(channels: &[Sampled], black: &[f64]) -> Option<Vec<f64>> {
     let peaks: Vec<Peak> = channels.iter().map(peak).collect::<Option<_>>()?;
     let brightest = channels
@@ -52,13 +51,13 @@ pub(super) fn darkest(channels: &[Sampled], black: &[f64]) -> Option<Vec<f64>> {
     is_level.then(|| peaks.into_iter().map(|peak| peak.middle).collect())
 }
 
-/// Numbers that scatter about one.
+/// Numbers that scatter around a middle.
 struct Peak {
     middle: f64,
     sd: f64,
 }
 
-/// The first peak of a channel's numbers, from the least up.
+/// The lowest peak of a channel's numbers.
 fn peak(channel: &Sampled) -> Option<Peak> {
     let [first, second] = LEAST.map(|part| channel.quantile(part).map(f64::from));
     let (first, second) = (first?, second?);
@@ -94,12 +93,12 @@ fn peak(channel: &Sampled) -> Option<Peak> {
 }
 
 impl Peak {
-    /// The same from the numbers around it.
+    /// The same, recomputed from the numbers around it.
     fn nearer(&self, sorted: &[f32]) -> Option<Self> {
         let below = |number: f64| sorted.partition_point(|one| f64::from(*one) < number);
         let (from, to) = (below(self.middle - REACH * self.sd), below(self.middle + REACH * self.sd));
         let middle = f64::from(*sorted.get(from + to.checked_sub(from)? / 2)?);
-        // what is brighter than the middle may have some light
+        // numbers above the middle may contain some light
         let darker = below(middle);
         let sd = middle - f64::from(*sorted.get((darker as f64 * (1.0 - ONE_SD)) as usize)?);
         Some(Self { middle, sd: if sd > 0.0 { sd } else { self.sd } })

@@ -1,40 +1,40 @@
-//! Where a channel's numbers end although they could go on: the level at which a sensor, or a program since,
-//! has cut them.
+//! Detects the level at which a channel's numbers end prematurely because a sensor or a program has clipped
+//! them.
 //!
-//! More pixels than chance puts there hold one number, and hardly any a greater one. That may also be an even
-//! colour without noise, as simulated pictures have it: then other numbers stand out as much, or the light
-//! does not come near that level gradually, and no pixel elsewhere has noise.
+//! There, more pixels than chance explains hold one number, and hardly any a greater one. A uniform colour
+//! without noise, as in simulated pictures, looks similar, but then other numbers stand out as much, or the
+//! light does not approach the level gradually and no pixel elsewhere has noise.
 
 use super::sampled::Sampled;
 
-/// Fewer numbers that are equal are chance.
+/// Fewest equal numbers that are not chance.
 const FEW: usize = 16;
-/// Least part of all numbers that are equal.
+/// Least fraction of all numbers that are equal.
 const LEAST_PART: f64 = 1e-3;
-/// So many times as many numbers are equal as there are of any that is next to it. Light that is greatest
-/// along a line, stored in coarse steps, makes it 2.4.
+/// Least ratio of the count of equal numbers to that of any adjacent number. Light with its maximum along a
+/// line, stored in coarse steps, reaches 2.4.
 const TIMES: usize = 4;
-/// How many different numbers below and above count as next.
+/// How many different numbers on either side count as adjacent.
 const NEXT: usize = 4;
-/// One over the part of the equal numbers that may be greater.
+/// Least ratio of the count of equal numbers to that of greater ones.
 const GREATER: usize = 10;
-/// Scaling a picture overshoots at edges: where this many times as many are equal as next to it, and the
-/// light comes near the level gradually,
+/// Scaling a picture overshoots at edges: if the count of equal numbers is this many times that of adjacent
+/// ones, and the light approaches the level gradually,
 const CLEARLY: usize = 20;
-/// so many times as many may be greater.
+/// the greater ones may be this many times as frequent.
 const OVERSHOT: usize = 2;
-/// An even colour that makes this part of the equal numbers is another of its kind.
+/// Another number that stands out with at least one over this of the count marks uniform colours.
 const OTHER: usize = 4;
-/// Numbers below this part of the level are surroundings.
+/// Numbers below this fraction of the level are surroundings.
 const DARK: f32 = 0.1;
-/// Where a level is reached gradually, at least this part of its boundary
+/// Where a level is approached gradually, at least this fraction of its boundary
 const GRADUAL_PART: f64 = 0.25;
-/// is within this part of it,
+/// is within this fraction of the level,
 const NEAR: f32 = 0.1;
-/// and it is so long, px.
+/// and the boundary has at least this many px.
 const BOUNDARY: usize = 8;
 
-/// The number at which each channel ends; none for those that do not, or end where they are known to.
+/// The number at which each channel ends; none for those that do not.
 pub(super) fn ends(channels: &[Sampled]) -> Vec<Option<f32>> {
     let levels: Vec<Option<f32>> = channels.iter().map(level).collect();
     let is_reached =
@@ -74,7 +74,7 @@ fn level(channel: &Sampled) -> Option<f32> {
     None
 }
 
-/// Whether the light comes near a level before it reaches it.
+/// Whether light approaches a level gradually.
 fn is_gradual(channel: &Sampled, level: f32) -> bool {
     let pairs = channel.runs.iter().flat_map(|run| run.windows(2));
     let lower =
@@ -84,18 +84,17 @@ fn is_gradual(channel: &Sampled, level: f32) -> bool {
     boundary.len() >= BOUNDARY && near as f64 >= GRADUAL_PART * boundary.len() as f64
 }
 
-/// A second difference of less than this part of the light may be the light's own.
+/// Relative second differences below this may be variation of the light itself.
 const NOISE: f64 = 2e-3;
-/// Or of less than so many of the steps between numbers, their rounding.
+/// Second differences below this many steps between numbers may be rounding.
 const STEPS: f64 = 2.5;
-/// Second differences beside each other change their sign in 73 % of cases where every pixel's noise is its
-/// own, seldom where light is smooth.
+/// Adjacent second differences change sign in 73 % of cases if pixel noise is independent, rarely if light is
+/// smooth.
 const CHANGES: f64 = 0.4;
-/// Fewer pixels tell nothing.
+/// Fewest pixels for a result.
 const FEW_PIXELS: usize = 200;
 
-/// Whether the light of neighbouring pixels differs by noise, and not only because it changes from place to
-/// place.
+/// Whether neighbouring pixels differ by noise, and not only by gradients.
 fn has_noise(channel: &Sampled) -> bool {
     let Some(greatest) = channel.sorted.last() else { return false };
     let is_lit = |run: &[f32]| run.iter().all(|number| *number > DARK * greatest && number < greatest);
@@ -116,7 +115,7 @@ fn has_noise(channel: &Sampled) -> bool {
         && median(absolute) > STEPS * step(channel)
 }
 
-/// The least difference of two numbers.
+/// The least difference between two numbers.
 fn step(channel: &Sampled) -> f64 {
     let differences = channel.sorted.windows(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0]));
     differences.filter(|difference| *difference > 0.0).fold(f64::INFINITY, f64::min)
@@ -129,7 +128,7 @@ mod tests {
     use rand_chacha::rand_core::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
 
-    /// A channel of 100 x 100 pixels whose number at each place from -1 to 1 is rounded.
+    /// A channel of 100 x 100 pixels with rounded numbers, as a function of position from -1 to 1.
     fn channel(mut number: impl FnMut(f64, f64) -> f64) -> Sampled {
         let place = |k: usize| (k as f64 + 0.5) / 50.0 - 1.0;
         let runs = (0..100).map(|y| (0..100).map(|x| number(place(x), place(y)).round() as f32).collect());
@@ -141,7 +140,7 @@ mod tests {
         // brightest along a line, as in a fold
         let light = |x: f64, y: f64| 9000.0 * (1.0 - 0.8 * x.abs()) * (1.0 - 0.2 * y * y);
         assert_eq!(ends(&[channel(light), channel(|x, y| light(x, y).min(7000.0))]), [None, Some(7000.0)]);
-        // in steps so coarse that a flat top holds many equal ones
+        // in steps so coarse that a flat top has many equal numbers
         assert_eq!(ends(&[channel(|x, y| 200.0 * (1.0 - 0.3 * x * x - 0.1 * y * y))]), [None]);
     }
 
@@ -149,7 +148,7 @@ mod tests {
     fn noise_tells_an_end_from_an_even_colour() {
         let mut draws = ChaCha8Rng::seed_from_u64(1);
         let mut noise = || -> f64 { StandardNormal.sample(&mut draws) };
-        // all of the sheet at its end, where it is sharply bounded
+        // the sheet is entirely clipped and sharply bounded
         let sheet = |x: f64| if x.abs() < 0.5 { 4095.0 } else { 0.0 };
         let noisy = channel(|x, _| if x.abs() < 0.5 { 2000.0 + 20.0 * noise() } else { 0.0 });
         assert_eq!(ends(&[channel(|x, _| sheet(x)), noisy]), [Some(4095.0), None]);

@@ -1,4 +1,4 @@
-//! By what a file that has been replaced is noticed.
+//! Identifies a version of a file, to detect replacement.
 
 use std::fs::Metadata;
 use std::time::UNIX_EPOCH;
@@ -13,7 +13,7 @@ pub struct FileStamp {
 }
 
 impl FileStamp {
-    /// Those of a file; none of a pipe or a device, which is another each time.
+    /// That of a file; none for a pipe or a device, which cannot be compared.
     #[must_use]
     pub fn of(metadata: &Metadata) -> Option<Self> {
         let modified = metadata.modified().ok().filter(|_| metadata.is_file())?;

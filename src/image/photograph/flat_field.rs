@@ -1,4 +1,4 @@
-//! Uneven light, undone with a photograph of a white sheet.
+//! Corrects uneven light by a photograph of a white sheet.
 
 use std::path::Path;
 
@@ -6,8 +6,7 @@ use super::Photograph;
 use super::pixel::Pixel;
 use crate::{Error, Result};
 
-/// A photograph of an evenly coloured sheet: where the light falls, and what the lens takes from it towards
-/// the corners.
+/// A photograph of a uniformly coloured sheet, which shows the distribution of the light and the vignetting.
 #[derive(Debug, Clone)]
 pub struct FlatField {
     sheet: Box<Photograph>,
@@ -16,7 +15,7 @@ pub struct FlatField {
 }
 
 impl FlatField {
-    /// The flat field that a photograph of a sheet shows; `path` is for errors.
+    /// The flat field from a photograph of a sheet; `path` is for errors.
     ///
     /// # Errors
     /// As [`Photograph::into_flat_field`].
@@ -55,7 +54,7 @@ impl FlatField {
         (self.sheet.width(), self.sheet.height())
     }
 
-    /// A pixel as even light would have shown it.
+    /// A pixel as it would be in uniform light.
     pub(super) fn divide(&self, x: usize, y: usize, pixel: Pixel) -> Pixel {
         match (pixel, self.sheet.pixel(x, y)) {
             (Pixel::Light(light), Pixel::Light(flat)) if flat.iter().all(|flat| *flat > 0.0) => {

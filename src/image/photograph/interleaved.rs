@@ -1,7 +1,7 @@
-//! Pixels stored with their colours side by side.
+//! Pixels stored with interleaved colours.
 //!
-//! The samples stay as they were stored and become numbers only when a pixel is read: measuring a large
-//! picture costs little more than decoding it.
+//! Samples remain as stored and are converted when a pixel is read: measuring a large picture costs little
+//! more than decoding it.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -18,12 +18,12 @@ use crate::image::numbers::{Development, Scale};
 #[derive(Debug, Clone)]
 pub(in crate::image) struct Interleaved {
     samples: Samples,
-    /// Where red, green and blue are among a pixel's samples, and alpha if there is one.
+    /// Indices of red, green and blue among a pixel's samples, and of alpha if there is one.
     colours: [usize; 3],
     alpha: Option<usize>,
-    /// Of red, green and blue.
+    /// For red, green and blue.
     scales: [Scale; 3],
-    /// Linear light of every integer by those scales, one table for equal ones; empty for floats.
+    /// Linear light of every integer under those scales, with one table for equal scales; empty for floats.
     tables: [Arc<[f64]>; 3],
     development: Option<Development>,
 }
@@ -34,16 +34,15 @@ enum Samples {
     U8(Array3<u8>),
     U16(Array3<u16>),
     F32(Array3<f32>),
-    /// Linear light already, infinite where it is clipped.
+    /// Already linear light, infinite where clipped.
     Light(Array3<f32>),
 }
 
 impl Interleaved {
-    /// The pixels of a decoded picture, stored in this orientation, and what was done to them that is to be
-    /// undone.
+    /// The pixels of a decoded picture, stored in this orientation, with the development to be undone.
     ///
     /// # Errors
-    /// If the decoder gave more or fewer samples than the picture has.
+    /// If the decoder returned another number of samples than the picture has.
     pub fn from_picture(
         picture: DynamicImage,
         orientation: Orientation,
@@ -62,8 +61,8 @@ impl Interleaved {
         })
     }
 
-    /// Pixels that are linear light already, by row, column and channel of the upright picture, infinite
-    /// where it is clipped.
+    /// Pixels that are already linear light, by row, column and channel of the upright picture, infinite
+    /// where clipped.
     pub fn from_light(light: Array3<f32>) -> Self {
         let (_, _, channels) = light.dim();
         Self {
@@ -76,18 +75,18 @@ impl Interleaved {
         }
     }
 
-    /// Colours of a pixel, 1 or 3.
+    /// Number of colours per pixel, 1 or 3.
     pub fn channels(&self) -> usize {
         let [red, _, blue] = self.colours;
         blue - red + 1
     }
 
-    /// Whether its numbers are light already, and not those of a file.
+    /// Whether its numbers are already light, not those of a file.
     pub fn is_light(&self) -> bool {
         matches!(self.samples, Samples::Light(_))
     }
 
-    /// The stored numbers of a colour in `columns` of row `y` that are finite and not clipped.
+    /// The stored numbers of a colour in `columns` of row `y`, if finite and not clipped.
     pub fn stored(&self, colour: usize, columns: Range<usize>, y: usize) -> Vec<f32> {
         let at = |x: usize| [y, x, self.colours[colour]];
         let stored = |x: usize| match &self.samples {
@@ -102,11 +101,11 @@ impl Interleaved {
             .collect()
     }
 
-    /// Changes what the stored numbers of each colour mean.
+    /// Changes the scale of each colour.
     pub fn rescale(&mut self, change: impl Fn(usize, Scale) -> Scale) {
         self.scales = [0, 1, 2].map(|k| change(k, self.scales[k]));
         match &mut self.samples {
-            // these are light already, each number by a scale of its own
+            // these are already light, each number by its own scale
             Samples::Light(light) => {
                 let scales = self.scales;
                 light.outer_iter_mut().into_par_iter().for_each(|mut row| {
@@ -121,7 +120,7 @@ impl Interleaved {
         }
     }
 
-    /// Shows the pixels in `columns` of row `y` one after another, with their columns.
+    /// Visits the pixels in `columns` of row `y` in order, with their columns.
     #[inline]
     pub fn visit(&self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
         match &self.development {
@@ -171,7 +170,7 @@ fn one_for_all(scale: &Scale) -> [Arc<[f64]>; 3] {
     [table.clone(), table.clone(), table]
 }
 
-/// Where red, green and blue are in a pixel of so many channels.
+/// Indices of red, green and blue in a pixel of this many channels.
 fn colours(channels: usize) -> [usize; 3] {
     [0, 1, 2].map(|channel| channel.min(channels - 1))
 }

@@ -1,5 +1,5 @@
-//! Where a photograph's numbers begin and end: black and white level as its own pixels have them, whatever
-//! its file says.
+//! Range of a photograph's numbers: black and white level according to its own pixels, whatever its file
+//! states.
 
 use super::Photograph;
 use super::darkest::darkest;
@@ -8,8 +8,7 @@ use super::sampled::Sampled;
 use crate::image::numbers::{Scale, Transfer};
 
 impl Photograph {
-    /// The same with the pixels clipped at which a channel's numbers end, and with what its darkest numbers
-    /// say.
+    /// The same, clipped where a channel's numbers end early, and with its darkest numbers recorded.
     pub(in crate::image) fn with_limits_detected(mut self) -> Self {
         let sampled = Sampled::of(&self.pixels, self.channels(), (self.width(), self.height()));
         let ends = ends(&sampled);
@@ -31,7 +30,7 @@ impl Photograph {
         self
     }
 
-    /// The same with its darkest numbers taken as no light, if they seem to be
+    /// The same with its darkest numbers as black, if they seem to be the level of no light
     /// ([`darkest`](crate::image::PhotographInfo::darkest)).
     ///
     /// # Example
@@ -67,7 +66,7 @@ impl Photograph {
         level(&self.info.black_level, channel)
     }
 
-    /// The number in the file of one that the picture's pixels hold; RAW files have become light.
+    /// Converts a number of the picture's pixels to that of the file; RAW files have become light.
     fn stored(&self, channel: usize, number: f64) -> f64 {
         let white = level(&self.info.white_level, channel);
         if self.pixels.are_light() {
@@ -77,7 +76,7 @@ impl Photograph {
         }
     }
 
-    /// The number that the picture's pixels hold for one in the file.
+    /// Converts a number of the file to that of the picture's pixels.
     fn number(&self, channel: usize, stored: f64) -> f64 {
         let white = level(&self.info.white_level, channel);
         if self.pixels.are_light() {
@@ -88,7 +87,7 @@ impl Photograph {
     }
 }
 
-/// The level of a channel, where there is one for all or one for each.
+/// The level of a channel, from one for all or one for each.
 fn level(levels: &[f64], channel: usize) -> f64 {
     levels.get(channel).or(levels.last()).copied().unwrap_or_default()
 }

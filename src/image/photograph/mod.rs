@@ -1,4 +1,4 @@
-//! A photograph as linear light, pixel by pixel, however it was stored.
+//! A photograph as linear light per pixel, however it was stored.
 
 mod camera_notes;
 mod darkest;
@@ -36,7 +36,7 @@ use self::pixels::Pixels;
 use self::sites::Sites;
 use crate::{Error, Result};
 
-/// A decoded photograph, seen upright.
+/// A decoded, upright photograph.
 #[derive(Debug, Clone)]
 pub struct Photograph {
     pixels: Pixels,
@@ -45,18 +45,18 @@ pub struct Photograph {
 }
 
 impl Photograph {
-    /// The photograph that a sensor under a mosaic of colour filters takes, each pixel of one colour.
+    /// The photograph of a sensor under a mosaic of colour filters, each pixel having one colour.
     ///
-    /// [`measure`](crate::image::measure) averages each colour's pixels where they are; nothing is
-    /// interpolated between them.
+    /// [`measure`](crate::image::measure) averages each colour's pixels at their own positions, without
+    /// interpolation.
     ///
     /// # Arguments
-    /// - `mosaic`: the colours, from the top left pixel on.
+    /// - `mosaic`: the colours, starting at the top left pixel.
     /// - `width`, `height`: px, at least 3.
-    /// - `light`: row by row from the top, width x height numbers, infinite where a pixel is clipped.
+    /// - `light`: row by row from the top, width x height numbers, infinite where clipped.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if the picture is smaller or there are not as many numbers.
+    /// [`Error::Numeric`] if the picture is smaller or the count of numbers differs.
     ///
     /// # Example
     /// ```
@@ -74,7 +74,7 @@ impl Photograph {
         })
     }
 
-    /// From the light of a sensor's sites by row and column as stored; none if there are less than 3 x 3.
+    /// From the light of a sensor's sites by row and column as stored; none if smaller than 3 x 3.
     pub(in crate::image) fn from_sites(
         light: Array2<f32>,
         mosaic: &Mosaic,
@@ -84,20 +84,20 @@ impl Photograph {
         Some(Self { pixels: Pixels::Sites(sites), flat_field: None, info })
     }
 
-    /// The same, of a file of such a size and time.
+    /// The same, from a file of this size and time.
     pub(in crate::image) fn of_file(mut self, file: Option<FileStamp>) -> Self {
         self.info.file = file;
         self
     }
 
-    /// A photograph of linear light that is at hand.
+    /// A photograph from linear light in memory.
     ///
     /// # Arguments
     /// - `width`, `height`: px, at least 1.
-    /// - `light`: row by row from the top, one number per pixel or three, infinite where it is clipped.
+    /// - `light`: row by row from the top, one number per pixel or three, infinite where clipped.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if there are not as many numbers.
+    /// [`Error::Numeric`] if the count of numbers differs.
     ///
     /// # Example
     /// ```
@@ -125,15 +125,15 @@ impl Photograph {
         Self::from_interleaved(Interleaved::from_light(upright), info)
     }
 
-    /// From pixels with their colours side by side.
+    /// From pixels with interleaved colours.
     pub(in crate::image) fn from_interleaved(pixels: Interleaved, info: PhotographInfo) -> Self {
         Self { pixels: Pixels::Interleaved(Box::new(pixels)), flat_field: None, info }
     }
 
-    /// What a photograph of an evenly coloured sheet tells of the light and the lens; `path` is for errors.
+    /// Makes a flat field from a photograph of a uniformly coloured sheet; `path` is for errors.
     ///
     /// # Errors
-    /// [`Error::Picture`] if more than half of its pixels cannot be used, or a channel has no light.
+    /// [`Error::Picture`] if more than half of its pixels are unusable, or a channel has no light.
     ///
     /// # Example
     /// ```
@@ -148,11 +148,11 @@ impl Photograph {
         FlatField::new(self, path)
     }
 
-    /// The same photograph in even light: each pixel over that of a flat field, whose mean counts as 1;
-    /// `path` is for errors.
+    /// The same photograph in uniform light: each pixel divided by that of a flat field normalised to a mean
+    /// of 1; `path` is for errors.
     ///
     /// # Errors
-    /// [`Error::Picture`] if the flat field has another size.
+    /// [`Error::Picture`] if the flat field differs in size.
     pub fn with_flat_field(self, flat_field: Arc<FlatField>, path: &Path) -> Result<Self> {
         let ((w, h), (width, height)) = (flat_field.size(), (self.width(), self.height()));
         if (w, h) != (width, height) {
@@ -179,27 +179,27 @@ impl Photograph {
         self.info.height
     }
 
-    /// Colours of a pixel: 3, or 1 for a grey picture.
+    /// Number of colours per pixel: 3, or 1 for a grey picture.
     #[must_use]
     pub fn channels(&self) -> usize {
         self.pixels.channels()
     }
 
-    /// What is known about the photograph besides its pixels.
+    /// Properties of the photograph other than its pixels.
     #[must_use]
     pub fn info(&self) -> &PhotographInfo {
         &self.info
     }
 
     /// The pixel in column `x` and row `y` of the upright picture, both below its size; in a mosaic the mean
-    /// of each colour in the nine pixels around it.
+    /// of each colour over the nine pixels around it.
     #[must_use]
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
         let pixel = self.pixels.pixel(x, y);
         self.flat_field.as_ref().map_or(pixel, |flat| flat.divide(x, y, pixel))
     }
 
-    /// The pictures that lie in one another: a mosaic is three grey ones, each with holes; any other is one.
+    /// The photograph's layers: three grey ones with holes for a mosaic, one otherwise.
     pub(in crate::image) fn layers(&self) -> impl Iterator<Item = Layer<'_>> {
         let colours = match self.pixels {
             Pixels::Interleaved(_) => 0..1,
@@ -213,7 +213,7 @@ impl Photograph {
 #[derive(Clone, Copy)]
 pub(in crate::image) struct Layer<'a> {
     photograph: &'a Photograph,
-    /// Of a mosaic, which colour's sites are shown.
+    /// In a mosaic, the colour whose sites are shown.
     colour: usize,
 }
 
@@ -223,7 +223,7 @@ impl Layer<'_> {
         (self.photograph.width(), self.photograph.height())
     }
 
-    /// Colours that its pixels have of their own.
+    /// Number of colours that its pixels have.
     pub fn channels(self) -> usize {
         match &self.photograph.pixels {
             Pixels::Interleaved(pixels) => pixels.channels(),
@@ -231,7 +231,7 @@ impl Layer<'_> {
         }
     }
 
-    /// Which of the three numbers of a pixel are its own; a grey pixel has all three, equal.
+    /// Which of a pixel's three numbers its layer defines; a grey pixel has all three, equal.
     fn numbers(self) -> Range<usize> {
         match self.photograph.pixels {
             Pixels::Interleaved(_) => 0..3,
@@ -239,7 +239,7 @@ impl Layer<'_> {
         }
     }
 
-    /// Shows its pixels in `columns` of row `y` one after another, with their columns.
+    /// Visits its pixels in `columns` of row `y` in order, with their columns.
     #[inline]
     pub fn visit(self, columns: Range<usize>, y: usize, mut visitor: impl FnMut(usize, Pixel)) {
         match &self.photograph.flat_field {
@@ -250,7 +250,7 @@ impl Layer<'_> {
         }
     }
 
-    /// The same as the light was stored.
+    /// The same, without the flat field.
     #[inline]
     fn visit_stored(self, columns: Range<usize>, y: usize, visitor: impl FnMut(usize, Pixel)) {
         match &self.photograph.pixels {

@@ -1,21 +1,21 @@
-//! Which colour each site of a sensor sees.
+//! The colour of each site of a sensor.
 
 use ndarray::Array2;
 
 use super::orientation::Orientation;
 
-/// The colour filters before a sensor's sites: a square of them, repeated over the picture.
+/// The colour filters before a sensor's sites: a square pattern, repeated over the picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mosaic {
-    /// 0, 1 or 2 for red, green or blue, by row and column; as many of the one as of the other.
+    /// 0, 1 or 2 for red, green or blue, by row and column; as many rows as columns.
     square: Array2<usize>,
 }
 
 const LETTERS: &str = "RGB";
 
 impl Mosaic {
-    /// The mosaic whose square reads `letters` row by row, as `RGGB`; none if they fill no square or one of
-    /// R, G and B is missing.
+    /// The mosaic whose pattern reads `letters` row by row, such as `RGGB`; none if they fill no square or
+    /// one of R, G and B is missing.
     ///
     /// # Example
     /// ```
@@ -40,7 +40,7 @@ impl Mosaic {
         self.square[[y % self.side(), x % self.side()]]
     }
 
-    /// Width and height of its square, sites.
+    /// Width and height of its pattern, sites.
     #[must_use]
     pub fn side(&self) -> usize {
         self.square.nrows()
@@ -52,7 +52,7 @@ impl Mosaic {
         self.square.iter().map(|&colour| &LETTERS[colour..=colour]).collect()
     }
 
-    /// The mosaic that begins `x` columns and `y` rows later.
+    /// The mosaic that begins `x` columns to the right and `y` rows below.
     #[must_use]
     pub fn starting_at(&self, x: usize, y: usize) -> Self {
         let colour = |(row, column)| self.colour(column + x, row + y);
@@ -61,8 +61,7 @@ impl Mosaic {
 
     /// The mosaic of the upright picture, for one stored in this size and orientation.
     pub(super) fn upright(&self, orientation: Orientation, (width, height): (usize, usize)) -> Self {
-        // looking back from the last column, the colours are those of the square that would follow it,
-        // mirrored
+        // read back from the last column, the colours are those of the next pattern to the right, mirrored
         let x = if orientation.mirrors_columns() { width } else { 0 };
         let y = if orientation.mirrors_rows() { height } else { 0 };
         Self { square: orientation.upright(self.starting_at(x, y).square) }
@@ -88,7 +87,7 @@ mod tests {
         assert_eq!(bayer.starting_at(3, 5).letters(), "BGGR");
     }
 
-    /// Turned by hand: the corner that is upright at the top left, then along the first upright row.
+    /// Turned by hand: the corner that is at the top left when upright, then along the first upright row.
     #[test]
     fn a_turned_picture_begins_with_another_corner() {
         let upright = |exif, width, height| {
@@ -99,7 +98,7 @@ mod tests {
         };
         assert_eq!([1, 2, 3, 4].map(|exif| upright(exif, 4, 2)), ["RGGB", "GRBG", "BGGR", "GBRG"]);
         assert_eq!([5, 6, 7, 8].map(|exif| upright(exif, 4, 2)), ["RGGB", "GRBG", "BGGR", "GBRG"]);
-        // in an odd number of columns the last is the first's colour
+        // with an odd number of columns the last has the first's colours
         assert_eq!([2, 8].map(|exif| upright(exif, 3, 2)), ["RGGB", "RGGB"]);
         assert_eq!(upright(3, 1, 1), "RGGB");
     }

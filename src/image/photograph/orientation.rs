@@ -1,4 +1,4 @@
-//! How a camera was held: the eight orientations of EXIF, as axes of an array turned round.
+//! How a camera was held: the eight orientations of EXIF, as permutations of an array's axes.
 
 use ndarray::{Array, Axis, Dimension};
 
@@ -13,10 +13,10 @@ impl Default for Orientation {
 }
 
 impl Orientation {
-    /// Stored as it is to be seen.
+    /// Stored upright.
     pub const UPRIGHT: Self = Self(1);
 
-    /// The orientation with EXIF's number, if it is one of 1 to 8.
+    /// The orientation with this EXIF number, if it is from 1 to 8.
     ///
     /// # Example
     /// ```
@@ -40,8 +40,8 @@ impl Orientation {
         if self.transposed() { (stored_height, stored_width) } else { (stored_width, stored_height) }
     }
 
-    /// A stored picture as it is to be seen, without a pixel moved in memory: its first axis is the rows, its
-    /// second the columns.
+    /// Turns a stored picture upright without moving pixels in memory: its first axis is the rows, its second
+    /// the columns.
     pub(super) fn upright<T, D: Dimension>(self, mut stored: Array<T, D>) -> Array<T, D> {
         let (rows, columns) = (Axis(0), Axis(1));
         if self.mirrors_rows() {

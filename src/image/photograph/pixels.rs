@@ -7,7 +7,7 @@ use super::pixel::Pixel;
 use super::sites::Sites;
 use crate::image::numbers::Scale;
 
-/// Pixels with their colours side by side, or sites of one colour each.
+/// Pixels with interleaved colours, or sites of one colour each.
 #[derive(Debug, Clone)]
 pub(super) enum Pixels {
     Interleaved(Box<Interleaved>),
@@ -15,7 +15,7 @@ pub(super) enum Pixels {
 }
 
 impl Pixels {
-    /// Colours of a pixel: 3, or 1 for a grey picture.
+    /// Number of colours per pixel: 3, or 1 for a grey picture.
     pub fn channels(&self) -> usize {
         match self {
             Self::Interleaved(pixels) => pixels.channels(),
@@ -23,7 +23,7 @@ impl Pixels {
         }
     }
 
-    /// The pixel in column `x` and row `y` of the upright picture; of sites the mean of each colour in the
+    /// The pixel in column `x` and row `y` of the upright picture; for sites the mean of each colour over the
     /// nine around it.
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
         match self {
@@ -36,7 +36,7 @@ impl Pixels {
         }
     }
 
-    /// Whether the numbers it holds are light already, and not those of a file.
+    /// Whether its numbers are already light, not those of a file.
     pub fn are_light(&self) -> bool {
         match self {
             Self::Interleaved(pixels) => pixels.is_light(),
@@ -44,8 +44,8 @@ impl Pixels {
         }
     }
 
-    /// Numbers of a colour that stand beside each other in `columns`, in row `y` or just below it, as they
-    /// are stored or as light of a sensor; those that are finite and not clipped.
+    /// Adjacent numbers of a colour in `columns`, in row `y` or just below it, as stored or as a sensor's
+    /// light; those that are finite and not clipped.
     pub fn stored(&self, colour: usize, columns: Range<usize>, y: usize) -> Vec<f32> {
         match self {
             Self::Interleaved(pixels) => pixels.stored(colour, columns, y),
@@ -53,7 +53,7 @@ impl Pixels {
         }
     }
 
-    /// Changes what these numbers mean.
+    /// Changes the scale of each colour.
     pub fn rescale(&mut self, change: impl Fn(usize, Scale) -> Scale) {
         match self {
             Self::Interleaved(pixels) => pixels.rescale(change),

@@ -1,4 +1,4 @@
-//! A channel's numbers, some of them from all over the picture: enough to see where they begin and end.
+//! A sample of a channel's numbers from all over the picture, sufficient to determine their range.
 
 use std::ops::Range;
 
@@ -6,21 +6,21 @@ use rayon::prelude::*;
 
 use super::pixels::Pixels;
 
-/// Numbers that are looked at: a plateau of a thousandth is 16 of them, and a large picture takes no longer.
+/// Size of the sample: a plateau of a thousandth has 16 of them, and a large picture takes no longer.
 const NUMBERS: usize = 1 << 14;
-/// Pixels beside each other.
+/// Length of a run of adjacent pixels.
 const RUN_PX: usize = 64;
 
-/// Some numbers of one channel.
+/// A sample of the numbers of one channel.
 pub(super) struct Sampled {
-    /// As they stand beside each other, from all over the picture.
+    /// In runs of adjacent ones, from all over the picture.
     pub runs: Vec<Vec<f32>>,
-    /// From the least to the greatest.
+    /// In ascending order.
     pub sorted: Vec<f32>,
 }
 
 impl Sampled {
-    /// Those of each of a picture's channels, which are so many and of that width and height.
+    /// Samples of each channel of a picture of this width and height.
     pub fn of(pixels: &Pixels, channels: usize, (width, height): (usize, usize)) -> Vec<Self> {
         let runs: Vec<_> = runs((width, height)).collect();
         let sampled = |channel: usize| {
@@ -29,28 +29,28 @@ impl Sampled {
         (0..channels).into_par_iter().map(sampled).collect()
     }
 
-    /// Of these runs of numbers.
+    /// From these runs of numbers.
     pub fn new(runs: Vec<Vec<f32>>) -> Self {
         let mut sorted: Vec<f32> = runs.iter().flatten().copied().collect();
         sorted.sort_unstable_by(f32::total_cmp);
         Self { runs, sorted }
     }
 
-    /// The number that a part of them, 0 to 1, lies below; none if there are none.
+    /// The quantile at `part`, 0 to 1; none if there are no numbers.
     pub fn quantile(&self, part: f64) -> Option<f32> {
         let last = self.sorted.len().checked_sub(1)?;
         Some(self.sorted[(part * last as f64).round() as usize])
     }
 
-    /// Each different number and how many there are of it, from the greatest down.
+    /// Each different number with its count, in descending order.
     pub fn counts(&self) -> Vec<(f32, usize)> {
         let equal = self.sorted.chunk_by(|a, b| a.total_cmp(b).is_eq());
         equal.rev().map(|equal| (equal[0], equal.len())).collect()
     }
 }
 
-/// Columns and row of the runs of a picture that are looked at: every so many rows, and of these every so
-/// many runs, in each row others than in the one before.
+/// Columns and row of the sampled runs of a picture: evenly spaced rows, and runs evenly spaced within them,
+/// staggered from row to row.
 fn runs((width, height): (usize, usize)) -> impl Iterator<Item = (Range<usize>, usize)> {
     let in_row = width.div_ceil(RUN_PX).max(1);
     let one_of = width * height / NUMBERS;
@@ -73,7 +73,7 @@ mod tests {
             let met = |x: usize| all.iter().any(|(columns, _)| columns.contains(&x));
             let bands = (0..width).step_by(RUN_PX).filter(|x| met(*x)).count();
             let rows = all.iter().map(|(_, y)| *y).collect::<std::collections::BTreeSet<_>>().len();
-            // a picture of few rows has not as many as bands
+            // a picture of few rows has fewer of them than bands
             assert!(bands >= rows.min(width.div_ceil(RUN_PX)), "{width} x {height}: {bands} bands");
             let count: usize = all.iter().map(|(columns, _)| columns.len()).sum();
             assert!(count > 0 && count < 2 * NUMBERS, "{width} x {height}: {count} numbers");

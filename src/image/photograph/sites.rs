@@ -1,8 +1,8 @@
-//! Pixels of one colour each, as they stand behind a sensor's colour filters.
+//! Pixels of one colour each, behind a sensor's colour filters.
 //!
-//! Nothing is interpolated: a measurement takes the sites of each colour where they are. Averages of two by
-//! two sites would shift red and blue by half a pixel against each other, which moves the mean of a panel by
-//! 0.17 % where light falls off along it.
+//! Nothing is interpolated: a measurement takes the sites of each colour at their own positions. Averages of
+//! two by two sites would shift red and blue by half a pixel against each other, which changes the mean of a
+//! panel by 0.17 % where light falls off along it.
 
 use std::ops::Range;
 
@@ -17,25 +17,24 @@ use crate::image::numbers::Scale;
 /// The sites of a sensor under a mosaic of colour filters.
 #[derive(Debug, Clone)]
 pub(super) struct Sites {
-    /// Linear light of the upright picture by row and column, infinite where it is clipped.
+    /// Linear light of the upright picture by row and column, infinite where clipped.
     light: Array2<f32>,
     /// That of the upright picture.
     mosaic: Mosaic,
 }
 
-/// Width and height of the square in which every colour occurs, wherever it stands.
+/// Width and height of a square in which every colour occurs, whatever its position.
 const NEIGHBOURS: usize = 3;
 
 impl Sites {
-    /// The sites of a picture, light by row and column and mosaic as stored; none if it is smaller than 3 x
-    /// 3.
+    /// The sites of a picture, with light by row and column and mosaic as stored; none if smaller than 3 x 3.
     pub fn new(light: Array2<f32>, mosaic: &Mosaic, orientation: Orientation) -> Option<Self> {
         let (height, width) = light.dim();
         let mosaic = mosaic.upright(orientation, (width, height));
         (width.min(height) >= NEIGHBOURS).then(|| Self { light: orientation.upright(light), mosaic })
     }
 
-    /// Shows the sites of one colour in `columns` of row `y`, with their columns.
+    /// Visits the sites of one colour in `columns` of row `y`, with their columns.
     #[inline]
     pub fn visit(
         &self,
@@ -49,7 +48,7 @@ impl Sites {
         }
     }
 
-    /// The mean of each colour in the nine sites around (x, y).
+    /// The mean of each colour over the nine sites around (x, y).
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
         let around = |at: usize, size: usize| {
             let first = at.saturating_sub(NEIGHBOURS / 2).min(size - NEIGHBOURS);
@@ -67,7 +66,7 @@ impl Sites {
         Pixel::new([0, 1, 2].map(|colour| sums[colour] / counts[colour]), false)
     }
 
-    /// The light of a colour's sites in `columns` of row `y` that is finite, or of the next row that has any.
+    /// The finite light of a colour's sites in `columns` of row `y`, or of the next row that has any.
     pub fn stored(&self, colour: usize, columns: Range<usize>, y: usize) -> Vec<f32> {
         let is_of_colour = |x: &usize, y: usize| self.mosaic.colour(*x, y) == colour;
         let rows = y..(y + self.mosaic.side()).min(self.light.nrows());
@@ -77,7 +76,7 @@ impl Sites {
         rows.find(|row: &Vec<f32>| row.len() > 1).unwrap_or_default()
     }
 
-    /// Changes what the light of each colour means.
+    /// Changes the scale of each colour.
     pub fn rescale(&mut self, change: impl Fn(usize, Scale) -> Scale) {
         let scales = [0, 1, 2].map(|colour| change(colour, Scale::LINEAR));
         let mosaic = &self.mosaic;

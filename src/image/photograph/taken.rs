@@ -1,30 +1,30 @@
-//! Where, when and in which light a picture was taken.
+//! Place, time and light of a picture.
 
-/// What a camera wrote about the light of a picture.
+/// The camera's notes on the light of a picture.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Taken {
     /// Latitude, north being positive, and longitude, east being positive, degrees.
     pub place_deg: Option<[f64; 2]>,
-    /// Date, time and its difference from UTC: `2026-06-21T14:30:00+02:00`.
+    /// Date, time and offset from UTC: `2026-06-21T14:30:00+02:00`.
     pub time: Option<String>,
-    /// Date and time by the camera's clock, wherever that was set: `2026-06-21T14:30:00`.
+    /// Date and time by the camera's clock, whatever its time zone: `2026-06-21T14:30:00`.
     pub clock: Option<String>,
-    /// The light that the camera was set to or had itself, if it is not the sun's.
+    /// The light that the camera was set to or fired, if other than the sun.
     pub other_light: Option<OtherLight>,
 }
 
-/// A light that is not the sun's, as cameras name it.
+/// A light other than the sun, as cameras name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OtherLight {
-    /// A flash that fired, or that the camera was set to.
+    /// A flash that fired, or the setting for one.
     Flash,
     /// Fluorescent lamps.
     FluorescentLamps,
-    /// Incandescent ones.
+    /// Incandescent lamps.
     LightBulbs,
     /// Daylight from clouds.
     Clouds,
-    /// Daylight from a sky whose sun is hidden.
+    /// Daylight from the sky with the sun hidden.
     Shade,
 }
 
@@ -41,7 +41,7 @@ impl OtherLight {
         }
     }
 
-    /// Whether it is daylight all the same.
+    /// Whether it is nevertheless daylight.
     #[must_use]
     pub fn is_daylight(self) -> bool {
         matches!(self, Self::Clouds | Self::Shade)

@@ -1,28 +1,28 @@
-//! Corners as a user types them, and whether they lie in the picture.
+//! Parses corners as typed by a user, and checks that they are in the picture.
 
 use super::homography::Homography;
 use super::point::Point;
 use crate::{Error, Result};
 
-/// The corners of a panel, in the order in which they are given.
+/// The corners of a panel, in input order.
 pub const PANEL_CORNERS: [&str; 4] = ["crease end 0", "crease end 1", "outer end 1", "outer end 0"];
 
-/// The outer corners of a chart's block of patches, in the order in which they are given: clockwise from the
-/// first patch where the chart is seen upright.
+/// The outer corners of a chart's block of patches, in input order: clockwise from the first patch of an
+/// upright chart.
 pub const CHART_CORNERS: [&str; 4] =
     ["first patch", "end of the first row", "last patch", "start of the last row"];
 
-/// The corners of a white card, in any order round it.
+/// The corners of a white card, in any order around it.
 pub const WHITE_CORNERS: [&str; 4] = ["corner 1", "corner 2", "corner 3", "corner 4"];
 
 /// Reads four corners, `"x,y x,y x,y x,y"`, in px.
 ///
 /// # Arguments
 /// - `flag`: the flag that holds the text, named in errors.
-/// - `names`: what the four corners are, in order; [`PANEL_CORNERS`] for a panel.
+/// - `names`: of the four corners, in order; [`PANEL_CORNERS`] for a panel.
 ///
 /// # Errors
-/// [`Error::Usage`] if there are not four pairs of numbers, or if they do not span a convex quadrilateral.
+/// [`Error::Usage`] unless there are four pairs of numbers that span a convex quadrilateral.
 ///
 /// # Example
 /// ```
@@ -65,19 +65,19 @@ pub fn parse_point(pair: &str) -> Option<Point> {
     Some(Point::new(x.parse().ok()?, y.parse().ok()?))
 }
 
-/// How far outside the picture a corner may lie, px: clicks on the very edge are often rounded outwards.
+/// Largest distance of a corner outside the picture, px: clicks on the very edge are often rounded outwards.
 const TOLERANCE_PX: f64 = 1.0;
 
-/// Whether a point lies in a picture of `width` x `height` px, give or take one pixel.
+/// Whether a point is in a picture of `width` x `height` px, within one pixel.
 pub(in crate::image) fn is_inside(p: Point, width: usize, height: usize) -> bool {
     (-TOLERANCE_PX..=width as f64 + TOLERANCE_PX).contains(&p.x)
         && (-TOLERANCE_PX..=height as f64 + TOLERANCE_PX).contains(&p.y)
 }
 
-/// Checks that the corners lie in a picture of `width` x `height` px, give or take one pixel.
+/// Checks that the corners are in a picture of `width` x `height` px, within one pixel.
 ///
 /// # Errors
-/// [`Error::Corners`] with the corner's name, its place and the picture's size; `region` says what the
+/// [`Error::Corners`] with the corner's name and position and the picture's size; `region` names what the
 /// corners bound.
 ///
 /// # Example

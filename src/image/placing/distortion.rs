@@ -1,16 +1,16 @@
-//! How a lens bends straight lines: radial distortion about the picture's centre.
+//! Radial distortion of straight lines by a lens, relative to the picture's centre.
 //!
-//! An ideal picture's point at distance r from the centre is seen at r (1 + k1 r² + k2 r⁴), in the same
-//! direction; r is in units of half the picture's shorter side. This is D. C. Brown's radial model
+//! A point of the ideal picture at distance r from the centre is seen at r (1 + k1 r² + k2 r⁴), in the same
+//! direction; the unit of r is half the picture's shorter side. This is D. C. Brown's radial model
 //! (*Close-Range Camera Calibration*, Photogrammetric Engineering 37, 1971, p. 855) in the direction and unit
-//! that lensfun (`poly5`), Hugin and ImageMagick (`-distort barrel "0 K1 0 1"`, which straightens) use.
-//! OpenCV's unit is the focal length: multiply its k1 by s² and its k2 by s⁴, s being half the shorter side
-//! over the focal length, both in px.
+//! of lensfun (`poly5`), Hugin and ImageMagick (`-distort barrel "0 K1 0 1"`, which straightens). OpenCV's
+//! unit is the focal length: multiply its k1 by s² and its k2 by s⁴, where s is half the shorter side over
+//! the focal length, both in px.
 
 use super::point::Point;
 use crate::{Error, Result};
 
-/// What a lens does to an ideal picture.
+/// The distortion of an ideal picture by a lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lens {
     centre: Point,
@@ -20,22 +20,21 @@ pub struct Lens {
     k2: f64,
 }
 
-/// Steps in which a lens is looked through for a fold, in its unit of length.
+/// Steps of the search for radii at which the picture folds back on itself, in the lens's unit of length.
 const RADIUS_STEP: f64 = 1e-3;
-/// Newton's steps for the radius; it takes five where the lens is ten percent off.
+/// Most Newton steps for the radius; at ten percent distortion it takes five.
 const ITERATIONS: usize = 30;
-/// The radius is found when a step is smaller than this.
+/// The radius has converged when a step is smaller than this.
 const CONVERGED: f64 = 1e-13;
 
 impl Lens {
     /// A lens without distortion.
     pub const STRAIGHT: Self = Self { centre: Point::new(0.0, 0.0), unit_px: 1.0, k1: 0.0, k2: 0.0 };
 
-    /// A lens with these coefficients, in front of a picture of `width` x `height` px.
+    /// A lens with these coefficients, for a picture of `width` x `height` px.
     ///
     /// # Errors
-    /// [`Error::Usage`] if a coefficient is not finite, or if two points of the ideal picture would be seen
-    /// at one.
+    /// [`Error::Usage`] if a coefficient is not finite, or if two points of the ideal picture would coincide.
     ///
     /// # Example
     /// ```
@@ -83,7 +82,7 @@ impl Lens {
         self.undistort_with_area(seen).0
     }
 
-    /// The point of the ideal picture that is seen here, and the ideal picture's area in a pixel there, px².
+    /// The point of the ideal picture that is seen here, and the ideal area per pixel there, px².
     pub(super) fn undistort_with_area(&self, seen: Point) -> (Point, f64) {
         if self.is_straight() {
             return (seen, 1.0);
@@ -102,14 +101,14 @@ impl Lens {
         Point::new(self.centre.x + x * self.unit_px, self.centre.y + y * self.unit_px)
     }
 
-    /// Seen over ideal lengths at this ideal radius: that of the radius itself, and of a short length along
-    /// it.
+    /// Ratios of seen to ideal lengths at this ideal radius: of the radius itself, and of a short length
+    /// along it.
     fn magnification(&self, radius: f64) -> (f64, f64) {
         let (r2, k1, k2) = (radius * radius, self.k1, self.k2);
         (1.0 + r2 * (k1 + k2 * r2), 1.0 + r2 * (3.0 * k1 + 5.0 * k2 * r2))
     }
 
-    /// Where an ideal radius is seen; none if the picture is bent back there.
+    /// Where an ideal radius is seen; none if the picture is folded back there.
     fn seen_radius(&self, radius: f64) -> Option<f64> {
         let (scale, slope) = self.magnification(radius);
         (slope > 0.0 && slope.is_finite()).then_some(radius * scale)

@@ -1,4 +1,4 @@
-//! Where the camera stood before a fold, from the corners of its panels.
+//! Position of the camera relative to a fold, from the corners of its panels.
 
 use nalgebra::{Point3, Vector3};
 
@@ -6,25 +6,24 @@ use super::point::Point;
 use super::pose::camera_position;
 use crate::geometry::Fold;
 
-/// Where a camera stands, in the coordinates of [`Fold::panels`] with crease end 0 at negative y, as the
-/// facets count.
+/// Position of a camera in the coordinates of [`Fold::panels`], with crease end 0 at negative y, in facet
+/// order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraPose {
-    /// The place, in the fold's unit.
+    /// In the fold's unit of length.
     pub position: Point3<f64>,
-    /// Whether the corners were marked so that the scene is seen as in a mirror: y runs the other way than in
-    /// space.
+    /// Whether the corners were marked as in a mirror image, with y reversed.
     pub mirrored: bool,
 }
 
-/// Where the camera stood that shows a fold's panels at these corners.
+/// Position of the camera for a fold whose panels appear at these corners.
 ///
 /// # Arguments
-/// - `panels`: corners in the picture, px, without what a lens bends: crease end 0, crease end 1, outer end
-///   1, outer end 0 of panels 0 and 1.
+/// - `panels`: corners in the undistorted picture, px: crease end 0, crease end 1, outer end 1, outer end 0
+///   of panels 0 and 1.
 ///
 /// # Returns
-/// Its pose; none if the corners fix no place from which both panels are seen.
+/// The pose; none if the corners determine no position from which both panels are visible.
 ///
 /// # Example
 /// ```
@@ -64,7 +63,7 @@ mod tests {
     use super::*;
     use crate::geometry::FacetGrid;
 
-    /// Corners of a rendered photograph (`real/one_none`) and where its camera was, in panel depths.
+    /// Corners of a rendered photograph (`real/one_none`) and the position of its camera, in panel depths.
     #[test]
     fn a_photographs_pose_is_where_its_camera_was() {
         let point = |[x, y]: [f64; 2]| Point::new(x, y);
@@ -77,7 +76,7 @@ mod tests {
         let truth = Point3::new(0.96547, 1.10338, 8.36309);
         let pose = camera_pose(&fold, &panels).unwrap();
         assert!((pose.position - truth).norm() < 0.01 && !pose.mirrored, "{pose:?}");
-        // marked from the other end of the crease, the facets count the other way
+        // marked from the other end of the crease, facets are numbered in reverse
         let turned = panels.map(|[a, b, c, d]| [b, a, d, c]);
         let pose = camera_pose(&fold, &turned).unwrap();
         let truth = Point3::new(truth.x, -truth.y, truth.z);

@@ -1,18 +1,17 @@
-//! A quadrilateral of the picture divided into rows and columns: a panel and its facets, a chart and its
-//! patches.
+//! A quadrilateral in the picture divided into rows and columns: a panel into facets, a chart into patches.
 
 use super::homography::Homography;
 
 /// Rows and columns between four corners.
 #[derive(Debug, Clone)]
 pub struct Grid {
-    /// Where it lies.
+    /// Its position in the picture.
     pub outline: Homography,
-    /// Where rows begin and end, from 0 to 1 away from the first side.
+    /// Boundaries of rows, from 0 to 1 away from the first side.
     pub row_edges: Vec<f64>,
-    /// The same of columns, along the first side.
+    /// Boundaries of columns, along the first side.
     pub col_edges: Vec<f64>,
-    /// The panel's number, if it is one.
+    /// The panel's number, if it is a panel.
     pub panel: Option<usize>,
 }
 
@@ -24,7 +23,7 @@ impl Grid {
         Self { outline, row_edges, col_edges, panel: Some(panel) }
     }
 
-    /// Rows and columns of one width.
+    /// Rows and columns of equal width.
     ///
     /// # Example
     /// ```

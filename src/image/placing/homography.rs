@@ -1,8 +1,8 @@
-//! Where a point of a panel lies in the picture: a plane seen in perspective.
+//! Maps between a panel and the picture: a plane in perspective.
 //!
-//! A camera without distortion maps a flat panel to the picture by a projective map, fixed by four corners;
-//! its lens may bend that picture ([`super::distortion`]). Closed form: P. Heckbert, *Fundamentals of Texture
-//! Mapping and Image Warping* (1989), section 2.2.3.
+//! A camera without distortion maps a flat panel to the picture by a projective map, determined by four
+//! corners; its lens may distort that picture ([`super::distortion`]). Closed form: P. Heckbert,
+//! *Fundamentals of Texture Mapping and Image Warping* (1989), section 2.2.3.
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -10,27 +10,27 @@ use super::distortion::Lens;
 use super::point::{Point, cross};
 use crate::{Error, Result};
 
-/// The map between a panel, (u, v) in the unit square, and the picture: projective, then bent by the lens.
+/// The map between a panel, (u, v) in the unit square, and the picture: projective, then distorted by the
+/// lens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Homography {
     corners: [Point; 4],
     lens: Lens,
     to_image: Matrix3<f64>,
     to_panel: Matrix3<f64>,
-    /// Size of the determinant of `to_panel`.
+    /// Absolute determinant of `to_panel`.
     to_panel_scale: f64,
 }
 
 impl Homography {
-    /// The map that takes the unit square to a quadrilateral of the picture.
+    /// The map from the unit square to a quadrilateral in the picture.
     ///
     /// # Arguments
     /// - `corners`: the images of (u, v) = (0, 0), (1, 0), (1, 1), (0, 1): crease end 0, crease end 1, outer
-    ///   end 1, outer end 0. Either sense of rotation will do; the two panels of a fold have opposite ones.
+    ///   end 1, outer end 0, in either orientation; the two panels of a fold have opposite ones.
     ///
     /// # Errors
-    /// Corners that are not finite, coincide, lie on a line, or are not those of a convex quadrilateral in
-    /// order.
+    /// Corners that are not finite, coincide, are collinear, or do not form a convex quadrilateral in order.
     ///
     /// # Example
     /// ```
@@ -45,8 +45,8 @@ impl Homography {
         Self::through(Lens::STRAIGHT, corners)
     }
 
-    /// The map to a picture taken through `lens`; the corners are where they are seen, and the sides between
-    /// them may be bent.
+    /// The map to a picture taken through `lens`; the corners are as seen, and the sides between them may be
+    /// curved.
     ///
     /// # Errors
     /// As [`Homography::from_unit_square`].
@@ -77,7 +77,7 @@ impl Homography {
         self.lens.distort(Point::new(seen.x / seen.z, seen.y / seen.z))
     }
 
-    /// The panel's point (u, v) of a point of the picture.
+    /// The panel's point (u, v) at a point of the picture.
     #[must_use]
     pub fn to_panel(&self, p: Point) -> (f64, f64) {
         let (u, v, _) = self.to_panel_with_area(p);
@@ -97,8 +97,8 @@ impl Homography {
         [(u[0], v[0]), (u[1], v[0]), (u[1], v[1]), (u[0], v[1])].map(|(u, v)| self.to_image(u, v))
     }
 
-    /// The angle at which a panel of these sides is seen at its middle, degrees: 0 straight on. The camera is
-    /// taken to be far away.
+    /// The angle at which a panel with these sides is seen at its middle, degrees: 0 straight on. The camera
+    /// is assumed to be distant.
     ///
     /// # Example
     /// ```
@@ -119,7 +119,7 @@ impl Homography {
         (stretch.min() / stretch.max()).acos().to_degrees()
     }
 
-    /// How far, px, the sides of a rectangle of the panel bow away from the straight lines between its
+    /// Largest distance, px, of the sides of a rectangle of the panel from the straight lines between its
     /// corners.
     pub(in crate::image) fn bow(&self, u: [f64; 2], v: [f64; 2]) -> f64 {
         let corners = self.rectangle(u, v);
@@ -132,7 +132,8 @@ impl Homography {
         (0..4).map(bow).fold(0.0, f64::max)
     }
 
-    /// The panel's point (u, v) and the panel's area in a pixel there, the inverse of the Jacobian's size.
+    /// The panel's point (u, v) and the panel's area per pixel there, the inverse of the Jacobian
+    /// determinant.
     pub(in crate::image) fn to_panel_with_area(&self, p: Point) -> (f64, f64, f64) {
         let (ideal, ideal_area) = self.lens.undistort_with_area(p);
         let place = self.to_panel * Vector3::new(ideal.x, ideal.y, 1.0);
@@ -142,7 +143,7 @@ impl Homography {
     }
 }
 
-/// The map that takes the unit square's corners (0, 0), (1, 0), (1, 1), (0, 1) to those of a quadrilateral.
+/// The map from the unit square's corners (0, 0), (1, 0), (1, 1), (0, 1) to those of a quadrilateral.
 #[rustfmt::skip] // a matrix has rows
 pub(in crate::image) fn square_to_quadrilateral([p0, p1, p2, p3]: &[Point; 4]) -> Matrix3<f64> {
     let (ax, ay) = (p1.x - p2.x, p1.y - p2.y);
@@ -157,8 +158,7 @@ pub(in crate::image) fn square_to_quadrilateral([p0, p1, p2, p3]: &[Point; 4]) -
     )
 }
 
-/// Corners closer than this share of the quadrilateral's size count as one, triples flatter than it as a
-/// line.
+/// Corners closer than this fraction of the quadrilateral's size coincide; flatter triples are collinear.
 const DEGENERATE: f64 = 1e-6;
 
 fn check_seen(corners: &[Point; 4], ideal: &[Point; 4]) -> Result<()> {
@@ -212,8 +212,8 @@ mod tests {
         Homography::from_unit_square(points(corners)).unwrap_err().to_string()
     }
 
-    /// Heckbert's own construction inverted by hand: a trapezoid whose far side is half as long as its near
-    /// side, so that the middle of the square is seen at two thirds of the height, where the diagonals meet.
+    /// Heckbert's construction inverted by hand: in a trapezoid whose far side is half as long as its near
+    /// side, the middle of the square is seen at two thirds of the height, where the diagonals meet.
     #[test]
     fn the_middle_of_a_square_is_seen_where_the_diagonals_meet() {
         let panel =
@@ -238,7 +238,8 @@ mod tests {
         assert!(message([(0.0, 0.0), (9.0, 0.0), (2.0, 2.0), (0.0, 9.0)]).contains("inwards"));
     }
 
-    /// A convex quadrilateral of any size and sense: one point near each corner of a square, mirrored or not.
+    /// A convex quadrilateral of any size and orientation: one point near each corner of a square, mirrored
+    /// or not.
     fn quadrilateral() -> impl Strategy<Value = [Point; 4]> {
         (prop::array::uniform8(-0.24..0.24), 1.0..5000.0, any::<bool>()).prop_map(|(d, size, mirrored)| {
             let mut corners = points([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
@@ -263,7 +264,7 @@ mod tests {
             }
         }
 
-        /// Against central differences of the map itself, pixels an area of the panel.
+        /// Against central differences of the map itself, pixels per area of the panel.
         #[test]
         fn a_pixels_area_is_that_of_the_derivative(corners in quadrilateral(), u in 0.1..0.9, v in 0.1..0.9) {
             let panel = Homography::from_unit_square(corners).unwrap();

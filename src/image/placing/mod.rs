@@ -1,4 +1,4 @@
-//! Where things lie: points of the picture, panels and charts in it, the lens and the camera that saw them.
+//! Positions: points of the picture, panels and charts in it, the lens and the camera.
 
 mod corners;
 mod distortion;

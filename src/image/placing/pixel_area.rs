@@ -1,6 +1,6 @@
-//! How much of a pixel lies in a convex quadrilateral.
+//! The part of a pixel inside a convex quadrilateral.
 //!
-//! Row by row it is known in closed form which pixels a quadrilateral touches and which it covers wholly;
+//! For each row, the pixels that a quadrilateral touches and those that it covers are known in closed form;
 //! only the few in between are clipped (I. Sutherland, G. Hodgman, *Reentrant Polygon Clipping*, CACM 17,
 //! 1974).
 
@@ -8,10 +8,10 @@ use std::ops::Range;
 
 use super::point::{Point, cross};
 
-/// A pixel whose edge lies on a side counts as inside in spite of rounding, px.
+/// Tolerance for rounding with which a pixel whose edge lies on a side counts as inside, px.
 const ROUNDING_PX: f64 = 1e-9;
 
-/// The points with a x + b y >= c, (a, b) of length one.
+/// The points with a x + b y >= c, where (a, b) is a unit vector.
 #[derive(Debug, Clone, Copy)]
 struct HalfPlane {
     a: f64,
@@ -20,17 +20,17 @@ struct HalfPlane {
 }
 
 impl HalfPlane {
-    /// Distance to the inside of the border, px.
+    /// Signed distance from the border, positive inside, px.
     fn depth(&self, p: Point) -> f64 {
         self.a * p.x + self.b * p.y - self.c
     }
 
-    /// How far a pixel reaches from its centre towards the border, px.
+    /// Half the extent of a pixel across the border, px.
     fn pixel_reach(&self) -> f64 {
         (self.a.abs() + self.b.abs()) / 2.0
     }
 
-    /// The range of x in which a x >= `rest`, for pixels whose corner at `x + offset` decides.
+    /// The range of x in which a x >= `rest`, for pixels whose corner at `x + offset` is decisive.
     fn columns(&self, rest: f64, offset: f64) -> (f64, f64) {
         let border = rest / self.a - offset;
         match self.a {
@@ -41,7 +41,7 @@ impl HalfPlane {
         }
     }
 
-    /// Columns of the pixels of `row` that lie wholly inside.
+    /// Columns of the pixels of `row` that are entirely inside.
     fn whole(&self, row: f64) -> (f64, f64) {
         let y = if self.b > 0.0 { row } else { row + 1.0 };
         let (low, high) =
@@ -57,13 +57,13 @@ impl HalfPlane {
     }
 }
 
-/// What lies inside four straight lines.
+/// The intersection of four half-planes.
 #[derive(Debug, Clone)]
 pub(in crate::image) struct Sides([HalfPlane; 4]);
 
 impl Sides {
-    /// Inside four directed lines, each from one point to the next, in order round it: clockwise in the
-    /// picture if `sense` is 1, the other way if -1. All are moved in by `margin_px`.
+    /// Inside four directed lines, each from one point to the next, in order around it: clockwise in the
+    /// picture if `sense` is 1, anticlockwise if -1. All are moved inwards by `margin_px`.
     pub fn new(lines: [[Point; 2]; 4], sense: f64, margin_px: f64) -> Self {
         Self(lines.map(|[p, q]| {
             let length = p.distance(q) * sense;
@@ -72,13 +72,13 @@ impl Sides {
         }))
     }
 
-    /// Columns of the pixels of `row` wholly inside, in a picture of `width` columns.
+    /// Columns of the pixels of `row` entirely inside, in a picture of `width` columns.
     pub fn whole_columns(&self, row: usize, width: usize) -> Range<usize> {
         clamp(intersect(self.0.map(|side| side.whole(row as f64))), width)
     }
 }
 
-/// A convex quadrilateral of the picture.
+/// A convex quadrilateral in the picture.
 #[derive(Debug, Clone)]
 pub(in crate::image) struct Quadrilateral {
     sides: Sides,
@@ -86,7 +86,7 @@ pub(in crate::image) struct Quadrilateral {
 }
 
 impl Quadrilateral {
-    /// The quadrilateral with these corners, in order round it in either sense.
+    /// The quadrilateral with these corners, in order around it in either sense.
     pub fn new(corners: &[Point; 4]) -> Self {
         let lines = [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]]);
         Self { sides: Sides::new(lines, sense(corners), 0.0), corners: *corners }
@@ -102,7 +102,7 @@ impl Quadrilateral {
         clamp(extent(self.corners.map(|p| p.x)), width)
     }
 
-    /// Columns of the pixels of `row` wholly inside, in a picture of `width` columns.
+    /// Columns of the pixels of `row` entirely inside, in a picture of `width` columns.
     pub fn whole_columns(&self, row: usize, width: usize) -> Range<usize> {
         self.sides.whole_columns(row, width)
     }
@@ -116,7 +116,7 @@ impl Quadrilateral {
     pub fn overlap(&self, x: usize, y: usize) -> f64 {
         let (x, y) = (x as f64, y as f64);
         let centre = Point::new(x + 0.5, y + 0.5);
-        // most pixels are met by one side only
+        // most pixels are crossed by one side only
         let met_by = |side: &&HalfPlane| side.depth(centre).abs() < side.pixel_reach();
         if self.sides.0.iter().any(|side| side.depth(centre) <= -side.pixel_reach()) {
             return 0.0;
@@ -126,12 +126,12 @@ impl Quadrilateral {
     }
 }
 
-/// 1 if corners follow each other clockwise in the picture, else -1.
+/// 1 if the corners are in clockwise order in the picture, else -1.
 pub(in crate::image) fn sense(corners: &[Point; 4]) -> f64 {
     cross(corners[0], corners[1], corners[2]).signum()
 }
 
-/// The whole pixels from the least to the greatest of some coordinates.
+/// The whole pixels from the least to the greatest coordinate.
 fn extent(coordinates: [f64; 4]) -> (f64, f64) {
     let least = coordinates.into_iter().fold(f64::INFINITY, f64::min);
     (least.floor(), coordinates.into_iter().fold(f64::NEG_INFINITY, f64::max).ceil())
@@ -143,9 +143,9 @@ fn intersect(ranges: [(f64, f64); 4]) -> (f64, f64) {
         .fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), range| (low.max(range.0), high.min(range.1)))
 }
 
-/// A range of whole numbers, cut to 0..size and empty if it runs backwards.
+/// A range of integers, clamped to 0..size and empty if it is reversed.
 fn clamp((low, high): (f64, f64), size: usize) -> Range<usize> {
-    // `as` takes negative numbers to 0 and infinity to the largest integer
+    // `as` converts negative numbers to 0 and infinity to the largest integer
     let low = (low as usize).min(size);
     low..(high as usize).clamp(low, size)
 }
@@ -230,7 +230,7 @@ mod tests {
                 for x in quadrilateral.touched_columns(y, 30) {
                     let overlap = quadrilateral.overlap(x, y);
                     prop_assert!(!whole.contains(&x) || (overlap - 1.0).abs() < 1e-8, "({x}, {y}) {overlap}");
-                    // One that an edge just touches is whole to rounding.
+                    // One that an edge just touches is whole up to rounding.
                     prop_assert!(overlap < 1.0 + 1e-8, "({x}, {y}) {overlap}");
                     sum += overlap;
                 }
@@ -238,7 +238,7 @@ mod tests {
             prop_assert!((sum - shoelace(&corners)).abs() < 1e-9, "{sum} {}", shoelace(&corners));
         }
 
-        /// The facets of a panel share out every pixel wholly inside the panel.
+        /// The facets of a panel partition every pixel entirely inside the panel.
         #[test]
         fn facets_share_out_a_pixel(corners in quadrilateral(), rows in 1_usize..5, cols in 1_usize..5) {
             let panel = Homography::from_unit_square(corners).unwrap();

@@ -1,24 +1,22 @@
-//! Where a camera stood, from points of known place in its picture.
+//! Position of a camera, from points of known position in its picture.
 
 use nalgebra::{Const, Dyn, Matrix3, OMatrix, RowSVector, Vector3};
 
 use super::point::Point;
 
-/// Numbers of a projection, of which one is its scale.
+/// Entries of a projection matrix, one of which is its scale.
 const UNKNOWNS: usize = 12;
-/// A second solution as good as this one, for the longest of 1, is no worse than it: the points lie in a
-/// plane.
+/// If a second solution with unit norm has a residual below this, the points are coplanar.
 const PLANE: f64 = 1e-9;
 
-/// The place of the pinhole that shows these points of space where they are seen, by the direct linear
-/// transform.
+/// Position of the pinhole that projects these points in space to their positions in the picture, by the
+/// direct linear transform.
 ///
 /// # Arguments
-/// - `seen`: points of space, any unit, and of the picture, px, without what a lens bends; six or more, not
-///   all in a plane.
+/// - `seen`: points in space, any unit, and in the undistorted picture, px; six or more, not coplanar.
 ///
 /// # Returns
-/// The place in the points' unit; none if they do not tell it, or the camera has them behind it or mirrored.
+/// The position in the points' unit; none if they do not determine it, or are behind the camera or mirrored.
 ///
 /// # Source
 /// R. Hartley, A. Zisserman, *Multiple View Geometry* (2004), algorithm 7.1 without its last step, and
@@ -70,7 +68,7 @@ pub fn camera_position(seen: &[(Vector3<f64>, Point)]) -> Option<Vector3<f64>> {
     seen.iter().all(in_front).then(|| middle + size * position)
 }
 
-/// The middle of some points, and how far they are from it in the mean.
+/// The mean of some points, and their mean distance from it.
 fn centre(points: impl Iterator<Item = Vector3<f64>> + Clone) -> (Vector3<f64>, f64) {
     let count = points.clone().count() as f64;
     let middle = points.clone().sum::<Vector3<f64>>() / count;
@@ -85,10 +83,10 @@ mod tests {
     use crate::forward::render::{Frame, Pinhole, Stand};
     use proptest::prelude::*;
 
-    /// Points with where they are seen.
+    /// Points with their positions in the picture.
     type Seen = Vec<(Vector3<f64>, Point)>;
 
-    /// A cube's corners in a picture of 2000 pixels, up to a few `off_px` off.
+    /// A cube's corners in a picture of 2000 pixels, with errors up to a few `off_px`.
     fn seen(eye: Vector3<f64>, off_px: f64) -> Option<Seen> {
         let stand = Stand { eye, look_at: Vector3::new(0.3, 0.4, 0.5), up: Vector3::new(0.1, 1.0, 0.3) };
         let camera = Pinhole::with_field_of_view(&stand, 40.0, Frame::new(2000, 1500).ok()?).ok()?;

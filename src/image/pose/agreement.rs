@@ -1,4 +1,4 @@
-//! Whether corners are those of the fold that was stated: of its angle, and of panels of its form.
+//! Checks whether corners agree with the stated fold: its angle, and the form of its panels.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use super::prior::{as_stated, other_than_stated};
 use super::{FoldAngle, FoldSeen};
 use crate::image::placing::Point;
 
-/// A fold as it was stated.
+/// A fold as stated by the user.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StatedFold {
     /// Angle between the panels, degrees.
@@ -18,12 +18,12 @@ pub struct StatedFold {
     pub depths: [f64; 2],
 }
 
-/// A fold that corners are rather those of than of the stated one.
+/// A fold that agrees better with the corners than the stated one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OtherFold {
-    /// The most probable fold that is not as it was stated.
+    /// The most probable fold other than the stated one.
     pub fold: FoldAngle,
-    /// Whether it is of other panels, and not of another angle.
+    /// Whether its panels differ from the stated ones, rather than its angle.
     pub has_other_panels: bool,
 }
 
@@ -41,19 +41,19 @@ impl fmt::Display for OtherFold {
     }
 }
 
-/// Probability that a fold is as it was stated below which it is not.
+/// The stated fold is rejected below this probability.
 const LEAST: f64 = 0.05;
-/// Corners so near to those of the stated fold, as a sum of squares in standard deviations, are not looked at
-/// further: others that explain them exactly would not be as probable as that.
+/// If the corners are this near to those of the stated fold, as a sum of squares in standard deviations, no
+/// others are tried: even an exact explanation by them would not be as probable.
 const NEAR: f64 = 6.0;
-/// Depths whose logarithms differ by less than this are those of one form.
+/// Depths whose logarithms differ by less than this have the same form.
 const SAME_FORM: f64 = 1e-6;
 
 impl FoldSeen {
-    /// A fold that these corners are rather those of, if they are not those of the stated one.
+    /// The fold that agrees better with these corners than the stated one, if the stated one is rejected.
     ///
     /// # Arguments
-    /// - `panels`: as [`FoldSeen::angle`] has them.
+    /// - `panels`: as for [`FoldSeen::angle`].
     ///
     /// # Example
     /// ```

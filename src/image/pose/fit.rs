@@ -1,35 +1,34 @@
-//! The unknowns at which corners are seen nearest to where they are, by least squares.
+//! Least-squares fit of the unknowns to the positions of corners.
 //!
 //! ## Reference
 //! D. W. Marquardt, *An algorithm for least-squares estimation of nonlinear parameters* (1963); evidence by
-//! Laplace's approximation: C. M. Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
+//! the Laplace approximation: C. M. Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
 
 use nalgebra::{Rotation3, SMatrix, SVector, Vector3};
 
 use super::prior::{EXPECTED, Hypothesis};
 use super::view::{ANGLE, Corners, LN_SIZE, MIDDLE, UNKNOWNS, Unknowns, seen};
 
-/// Two coordinates of six corners, and what is expected.
+/// Two coordinates of six corners, and the prior means.
 const RESIDUALS: usize = 12 + EXPECTED;
 type Residuals = SVector<f64, RESIDUALS>;
 type Jacobian = SMatrix<f64, RESIDUALS, UNKNOWNS>;
 type Square = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 
-/// Most steps of a search, and the fall of the cost below which it has ended.
+/// Most steps of a search, and the decrease of the cost below which it ends.
 const STEPS: usize = 60;
 const SMALL_FALL: f64 = 1e-9;
-/// Damping at first, its factors after a step that fails and one that does not, and where no step helps.
+/// Initial damping, its factors after an unsuccessful and a successful step, and its limit.
 const DAMPING: f64 = 1e-2;
 const DAMPING_UP: f64 = 8.0;
 const DAMPING_DOWN: f64 = 0.2;
 const DAMPING_MOST: f64 = 1e8;
-/// Step of the central differences, for unknowns of about 1.
+/// Step of the central differences, for unknowns near 1.
 const DIFFERENCE: f64 = 1e-5;
-/// Angles from which a search sets out, radians, and how far the fold is turned then about the crease and
-/// across it.
+/// Initial angles of the searches, radians, and initial turns of the fold around the crease and across it.
 const FIRST_ANGLES: [f64; 2] = [0.6, 1.4];
 const FIRST_TURNS: [f64; 3] = [-0.5, 0.0, 0.5];
-/// A fold whose angle is not in this range, radians, is closed or flat.
+/// A fold with an angle outside this range, radians, is closed or flat.
 const ANGLES: std::ops::Range<f64> = 0.02..3.12;
 
 /// A minimum of the cost.
@@ -40,30 +39,30 @@ pub(super) struct Fitted {
     pub angle_sd: f64,
     /// Sum of the squares of all residuals.
     pub squares: f64,
-    /// Logarithm of the probability of the corners under the hypothesis times its share, but for a constant.
+    /// Log probability of the corners under the hypothesis times its prior share, up to a constant.
     pub ln_evidence: f64,
 }
 
 impl Fitted {
-    /// How many times further off corners are than they should be.
+    /// Ratio of the corners' residuals to their expected size.
     pub fn reduced_chi(&self) -> f64 {
         (self.squares / (RESIDUALS - UNKNOWNS) as f64).max(1.0).sqrt()
     }
 
-    /// The same probability where all corners are so many times further off than they should be.
+    /// The same log probability if all standard deviations are larger by the factor `reduced_chi`.
     pub fn ln_evidence_at(&self, reduced_chi: f64) -> f64 {
         self.ln_evidence + 0.5 * self.squares * (1.0 - reduced_chi.powi(-2))
     }
 }
 
-/// Corners that were seen, and how exactly.
+/// Observed corners and their standard deviation.
 pub(super) struct Sighting {
     pub corners: Corners,
     pub sd: f64,
 }
 
 impl Sighting {
-    /// All minima under a hypothesis, from several first guesses, the same one possibly several times.
+    /// All minima under a hypothesis, from several initial guesses, possibly with duplicates.
     pub fn fit(&self, hypothesis: &Hypothesis) -> Vec<Fitted> {
         let guesses = FIRST_ANGLES.iter().flat_map(|angle| {
             FIRST_TURNS
@@ -73,12 +72,12 @@ impl Sighting {
         guesses.filter_map(|guess| self.descend(hypothesis, guess)).collect()
     }
 
-    /// The minimum below one first guess: the angle, and turns across and about the crease.
+    /// The minimum reached from one initial guess: the angle, and turns across and around the crease.
     fn descend(&self, hypothesis: &Hypothesis, (angle, across, yaw): (f64, f64, f64)) -> Option<Fitted> {
         let crease = self.corners[1] - self.corners[0];
         let roll = crease.x.atan2(-crease.y);
         let turn = |axis: usize, angle: f64| Rotation3::new(Vector3::ith(axis, angle));
-        // y up and the opening towards the camera, then turned as the crease is seen
+        // y upwards and the opening towards the camera, then turned to the apparent direction of the crease
         let held = turn(2, roll) * turn(0, across) * turn(1, yaw) * turn(0, std::f64::consts::PI);
         let mut unknowns = Unknowns::zeros();
         hypothesis.expected.iter().for_each(|expected| unknowns[expected.unknown] = expected.mean);
@@ -90,16 +89,16 @@ impl Sighting {
     }
 }
 
-/// What is minimised: half the squares of all residuals.
+/// The objective: half the sum of squared residuals.
 struct Problem<'a> {
     sighting: &'a Sighting,
     hypothesis: &'a Hypothesis,
-    /// How the fold is first held before the camera.
+    /// Initial orientation of the fold relative to the camera.
     held: Rotation3<f64>,
 }
 
 impl Problem<'_> {
-    /// By Levenberg's and Marquardt's method; none if no fold before the camera is near.
+    /// Levenberg-Marquardt; none if there is no minimum with the fold in front of the camera.
     fn minimise(&self, mut unknowns: Unknowns) -> Option<Fitted> {
         let mut residuals = self.residuals(&unknowns)?;
         let mut damping = DAMPING;
@@ -129,7 +128,7 @@ impl Problem<'_> {
         self.fitted(unknowns, &residuals)
     }
 
-    /// What a minimum tells.
+    /// Results at a minimum.
     fn fitted(&self, unknowns: Unknowns, residuals: &Residuals) -> Option<Fitted> {
         let jacobian = self.jacobian(&unknowns)?;
         let factor = jacobian.tr_mul(&jacobian).cholesky()?;
@@ -140,12 +139,12 @@ impl Problem<'_> {
         let ln_evidence = ln_prior - 0.5 * (squares + ln_determinant);
         let angle_sd = factor.inverse()[(ANGLE, ANGLE)].sqrt();
         let found = Fitted { unknowns, angle_sd, squares, ln_evidence };
-        // corners that the model does not explain are further off than they should be
+        // corners that the model does not explain are less accurate than assumed
         Some(Fitted { angle_sd: found.reduced_chi() * angle_sd, ..found })
     }
 
-    /// Seen places less those of a model, then unknowns less what is expected of them, each over its standard
-    /// deviation.
+    /// Positions predicted by the model minus observed ones, then unknowns minus their prior means, each over
+    /// its standard deviation.
     fn residuals(&self, unknowns: &Unknowns) -> Option<Residuals> {
         let seen = ANGLES.contains(&unknowns[ANGLE]).then(|| seen(unknowns, &self.held)).flatten()?;
         let mut residuals = Residuals::zeros();

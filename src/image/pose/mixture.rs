@@ -1,13 +1,13 @@
-//! Of several explanations of the same corners, the form of the panels that is most probable, and how
-//! uncertain the angle is in all.
+//! The most probable form of the panels among several explanations of the same corners, and the uncertainty
+//! of the angle over all of them.
 
 use super::fit::Fitted;
 use super::prior::Form;
 use super::view::{ANGLE, LN_DEPTH, LN_DEPTH_RATIO};
 
-/// Fits whose angles, radians, and logarithms of depths differ by less than this are one.
+/// Fits whose angles, radians, and logarithms of depths differ by less than this are identical.
 const SAME: f64 = 1e-4;
-/// Share of all that is likely within which deviations count.
+/// Fraction of the total weight over which deviations are averaged.
 const PROBABLE: f64 = 0.95;
 
 /// Corners explained by a fold of some form.
@@ -17,17 +17,17 @@ pub(super) struct Explanation {
     pub fitted: Fitted,
 }
 
-/// What several explanations say together.
+/// The average over several explanations.
 pub(super) struct Mean {
-    /// The angle of folds of the most probable form, radians.
+    /// The angle for the most probable form, radians.
     pub angle: f64,
     /// Its standard deviation.
     pub sd: f64,
-    /// Depths of panels of that form, over their width.
+    /// Depths of panels of that form relative to their width.
     pub depths: [f64; 2],
 }
 
-/// Weighs explanations by their evidence; none if there is no explanation.
+/// Averages explanations by their evidence; none if there are none.
 pub(super) fn mean(explanations: Vec<Explanation>) -> Option<Mean> {
     let explanations = distinct(explanations);
     let most = explanations.iter().map(|one| one.fitted.ln_evidence).fold(f64::NEG_INFINITY, f64::max);
@@ -51,11 +51,11 @@ pub(super) fn mean(explanations: Vec<Explanation>) -> Option<Mean> {
     Some(Mean { angle, sd: deviation(angle, weighed.collect()), depths })
 }
 
-/// Root mean square deviation from an angle of the nearest that make up [`PROBABLE`] of all: weights, angles
-/// and their standard deviations.
+/// Root mean square deviation from an angle, over the nearest explanations that make up [`PROBABLE`] of the
+/// weight: weights, angles and their standard deviations.
 ///
-/// A far form with little weight, which whoever believes the angle takes for a blunder, would widen it
-/// manifold.
+/// A distant form with little weight, which a user who trusts the angle would dismiss as a blunder, would
+/// increase it several times.
 fn deviation(angle: f64, mut weighed: Vec<(f64, f64, f64)>) -> f64 {
     weighed.sort_by(|a, b| (a.1 - angle).abs().total_cmp(&(b.1 - angle).abs()));
     let enough = PROBABLE * weighed.iter().map(|(weight, _, _)| weight).sum::<f64>();
@@ -70,7 +70,7 @@ fn deviation(angle: f64, mut weighed: Vec<(f64, f64, f64)>) -> f64 {
     (squares / total).sqrt()
 }
 
-/// Each explanation once.
+/// The explanations without duplicates.
 pub(super) fn distinct(explanations: Vec<Explanation>) -> Vec<Explanation> {
     let mut kept: Vec<Explanation> = Vec::new();
     for one in explanations {

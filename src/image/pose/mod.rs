@@ -1,12 +1,12 @@
 //! The angle of a fold from its six corners in a photograph.
 //!
-//! Six corners are twelve numbers. Where the fold is and how it is turned takes six, the angle is the
-//! seventh; the focal length, the lens' distortion and the panels' form are known more or less, and what is
-//! not is found along with the angle, each as far as it was [known](prior) before. Panels may be of several
-//! usual forms: each is tried, and weighed by how well it explains the corners.
+//! Six corners are twelve numbers. Position and orientation of the fold take six, the angle is the seventh;
+//! the focal length, the lens distortion and the form of the panels are fitted with it, under a
+//! [prior](prior) on each. Panels may have one of several usual forms: each is tried, and weighted by how
+//! well it explains the corners.
 //!
-//! The camera is a pinhole behind a lens as [`Lens`] has it, its axis through the middle of the picture: a
-//! picture cut on one side is seen a little askew.
+//! The camera is a pinhole behind a lens as in [`Lens`], with its axis through the middle of the picture: a
+//! picture cropped on one side biases the result slightly.
 
 mod agreement;
 mod fit;
@@ -23,44 +23,44 @@ use mixture::{Explanation, Mean, mean};
 use outline::Outline;
 use prior::{FILM_DIAGONAL_MM, FOCAL_MM, Hypothesis, KnownBefore, hypotheses};
 
-/// The angle between the panels of a fold as its corners tell it.
+/// The angle between the panels of a fold, determined from its corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FoldAngle {
     /// Degrees, from 0 to 180.
     pub angle_deg: f64,
     /// Its standard deviation, degrees.
     pub angle_sd_deg: f64,
-    /// Depth of panels 0 and 1, away from the crease, over their width along it.
+    /// Depth of panels 0 and 1, away from the crease, relative to their width along it.
     pub depths: [f64; 2],
 }
 
-/// Whose corners they are, by how far they are off, as a part of a panel's side.
+/// Origin of the corners, which determines their accuracy relative to a panel's side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CornersBy {
     /// [`find_fold`](crate::image::find_fold) found them.
     Finding,
-    /// Somebody marked them.
+    /// A person marked them.
     Hand,
 }
 
-/// What is known of a fold and the camera beside the corners.
+/// Knowledge of a fold and the camera in addition to the corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FoldSeen {
     /// Width and height of the picture, px.
     pub size: [usize; 2],
-    /// Who says where the corners are.
+    /// Origin of the corners.
     pub corners_by: CornersBy,
-    /// The lens, if it was stated.
+    /// The lens, if stated.
     pub lens: Option<Lens>,
-    /// Focal length that shows as much on film of 36 x 24 mm, mm, if the camera wrote it.
+    /// Focal length of equal angle of view on film of 36 x 24 mm, mm, if the camera recorded it.
     pub focal_35mm: Option<f64>,
-    /// Depths of both panels over their width, if they were stated.
+    /// Depths of both panels relative to their width, if stated.
     pub depths: Option<[f64; 2]>,
 }
 
-/// Standard deviation of a corner that was found, as a part of a panel's side.
+/// Standard deviation of a detected corner, relative to a panel's side.
 const DETECTED: f64 = 0.002;
-/// The same of one that somebody marked.
+/// The same for a corner marked by a person.
 const MARKED: f64 = 0.008;
 
 impl FoldSeen {
@@ -68,11 +68,11 @@ impl FoldSeen {
     ///
     /// # Arguments
     /// - `panels`: corners of panels 0 and 1, px, in the order of
-    ///   [`PANEL_CORNERS`](crate::image::PANEL_CORNERS); where they differ in an end of the crease, that is
-    ///   in the middle.
+    ///   [`PANEL_CORNERS`](crate::image::PANEL_CORNERS); if they differ in an end of the crease, the midpoint
+    ///   is used.
     ///
     /// # Returns
-    /// None if no fold that is open to the camera looks so.
+    /// None if no fold that opens towards the camera has such corners.
     ///
     /// # Example
     /// ```
@@ -121,7 +121,7 @@ impl FoldSeen {
         }
     }
 
-    /// All that explains the corners under some hypotheses.
+    /// All explanations of the corners under some hypotheses.
     fn explained(&self, outline: &Outline, hypotheses: Vec<Hypothesis>) -> Vec<Explanation> {
         let corner = match self.corners_by {
             CornersBy::Finding => DETECTED,

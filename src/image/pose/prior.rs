@@ -1,67 +1,66 @@
-//! The priors on a fold and a camera: what is known before corners are looked at.
+//! The priors on a fold and a camera.
 
 use std::f64::consts::SQRT_2;
 
 use super::view::{ANGLE, K1, LN_DEPTH, LN_DEPTH_RATIO, LN_FOCAL};
 
-/// A number of known mean and standard deviation.
+/// Prior mean and standard deviation of an unknown.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Expected {
-    /// Its place among the unknowns.
+    /// Its index among the unknowns.
     pub unknown: usize,
     pub mean: f64,
     pub sd: f64,
 }
 
-/// Numbers of which something is known beforehand.
+/// Number of unknowns with a prior.
 pub(super) const EXPECTED: usize = 5;
 
-/// One way in which a fold may have been made and photographed.
+/// A hypothesis on how a fold was made and photographed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hypothesis {
-    /// Its share of all folds.
+    /// Its prior probability.
     pub share: f64,
     pub expected: [Expected; EXPECTED],
     pub form: Form,
 }
 
-/// A form of both panels.
+/// The form of both panels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Form {
-    /// Their depths over their width.
+    /// Their depths relative to their width.
     Usual([f64; 2]),
-    /// Any.
+    /// Any other.
     Other,
 }
 
-/// Diagonal of a picture on film, mm, to which equivalent focal lengths refer (CIPA DCG-001).
+/// Diagonal of a film frame, mm, to which equivalent focal lengths refer (CIPA DCG-001).
 pub(super) const FILM_DIAGONAL_MM: f64 = 43.27;
-/// Focal length of a camera of which nothing is known, as on film, mm: two in three between 25 mm and 120 mm.
+/// Equivalent focal length of an unknown camera, mm: two in three are between 25 mm and 120 mm.
 pub(super) const FOCAL_MM: f64 = 55.0;
 const LN_FOCAL_SD: f64 = 0.8;
-/// How far one that the file states is off: it is rounded to mm, and lenses are focused near.
+/// Error of a focal length stated in the file: it is rounded to mm, and lenses are focused at close range.
 const LN_STATED_FOCAL_SD: f64 = 0.05;
-/// Share of pictures that were cropped after that was written, so that it says little.
+/// Fraction of pictures cropped after the focal length was recorded.
 const CROPPED_SHARE: f64 = 0.1;
-/// Distortion of a lens of which nothing is known: that of most lenses is within 2 % at the middle of the
-/// picture's longer sides.
+/// Distortion of an unknown lens: at the middle of the picture's longer sides most are within 2 %.
 const K1_SD: f64 = 0.02;
-/// The same of one that was stated.
+/// The same for a stated lens.
 const K1_STATED_SD: f64 = 1e-4;
-/// How far the depth of a panel is off what it should be: sheets are cut and folded by hand.
+/// Error of a panel's depth: sheets are cut and folded by hand.
 const LN_DEPTH_SD: f64 = 0.005;
-/// Depth over width of panels of which nothing is known: two in three between a half and two.
+/// Depth over width of panels of unknown form: two in three are between a half and two.
 const LN_ANY_DEPTH_SD: f64 = 0.7;
 
-/// An angle that nobody stated, radians: any.
+/// Mean and standard deviation of an unstated angle, radians: any.
 const ANY_ANGLE: (f64, f64) = (0.8, 10.0);
-/// One that is another than was stated, radians: most folds are open by 20° to 80°.
+/// Those of an angle other than the stated one, radians: most folds are open by 20° to 80°.
 const OTHER_ANGLE: (f64, f64) = (0.85, 0.4);
-/// How many folds are as they were stated; of the others half are of another angle, half of other panels.
+/// Fraction of folds that are as stated; of the others half have another angle, half other panels.
 const AS_STATED: f64 = 0.9;
 
-/// Depth over width of usual panels, and their shares of all: squares most of all, halves of A and Letter
-/// sheets along either middle, whole ones of sheets twice as large, and the same folded the other way.
+/// Depth over width of usual panels, and their prior probabilities: mostly squares, then halves of A and
+/// Letter sheets divided either way, whole ones of sheets twice as large, and the same folded the other way.
 const FORMS: [(f64, f64); 11] = [
     (1.0, 0.75),
     (1.0 / SQRT_2, 0.02),
@@ -76,12 +75,12 @@ const FORMS: [(f64, f64); 11] = [
     (11.0 / 8.5, 0.01),
 ];
 
-/// What is known of a fold and its camera beside the corners.
+/// Knowledge of a fold and its camera in addition to the corners.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct KnownBefore {
-    /// Whether the lens' distortion is known, and undone.
+    /// Whether the lens distortion is known, and corrected.
     pub is_lens_known: bool,
-    /// The focal length that the file states, in the unit of the picture.
+    /// The focal length stated in the file, in the unit of the picture.
     pub focal: Option<f64>,
     /// The focal length of [`FOCAL_MM`], in the unit of the picture.
     pub usual_focal: f64,
@@ -89,7 +88,7 @@ pub(super) struct KnownBefore {
     pub depths: Option<[f64; 2]>,
 }
 
-/// Every way in which the fold may have been made and photographed.
+/// All hypotheses on how the fold was made and photographed.
 pub(super) fn hypotheses(known_before: &KnownBefore) -> Vec<Hypothesis> {
     forms(known_before.depths)
         .into_iter()
@@ -97,12 +96,12 @@ pub(super) fn hypotheses(known_before: &KnownBefore) -> Vec<Hypothesis> {
         .collect()
 }
 
-/// The fold as it was stated: the mean and the standard deviation of its angle, radians.
+/// The fold as stated, with mean and standard deviation of its angle, radians.
 pub(super) fn as_stated(known_before: &KnownBefore, depths: [f64; 2], angle: (f64, f64)) -> Vec<Hypothesis> {
     with_focals(known_before, (AS_STATED, Form::Usual(depths)), angle)
 }
 
-/// The same if it is not as it was stated: the angle is another, or the form of the panels.
+/// The alternatives: another angle, or another form of the panels.
 pub(super) fn other_than_stated(
     known_before: &KnownBefore,
     depths: [f64; 2],
@@ -117,7 +116,7 @@ pub(super) fn other_than_stated(
     other_angle.into_iter().chain(other_form).collect()
 }
 
-/// A form of the panels and its share, at every focal length.
+/// A form of the panels and its probability, with every focal length.
 fn with_focals(known_before: &KnownBefore, (share, form): (f64, Form), angle: (f64, f64)) -> Vec<Hypothesis> {
     let k1 = Expected {
         unknown: K1,
@@ -134,7 +133,7 @@ fn with_focals(known_before: &KnownBefore, (share, form): (f64, Form), angle: (f
     focals(known_before).into_iter().map(hypothesis).collect()
 }
 
-/// Forms that the panels may have, and the share of each.
+/// Possible forms of the panels, with their probabilities.
 fn forms(known_before: Option<[f64; 2]>) -> Vec<(f64, Form)> {
     if let Some(depths) = known_before {
         return vec![(1.0, Form::Usual(depths))];
@@ -144,7 +143,7 @@ fn forms(known_before: Option<[f64; 2]>) -> Vec<(f64, Form)> {
     usual.into_iter().chain([(others, Form::Other)]).collect()
 }
 
-/// What is expected of depths of this form.
+/// Prior on the depths for this form.
 fn of_form(form: Form) -> [Expected; 2] {
     let (mean, sd, ratio) = match form {
         Form::Usual([depth0, depth1]) => (depth0.ln(), LN_DEPTH_SD, (depth1 / depth0).ln()),
@@ -156,7 +155,7 @@ fn of_form(form: Form) -> [Expected; 2] {
     ]
 }
 
-/// Focal lengths that the camera may have had, and the share of each.
+/// Possible focal lengths of the camera, with their probabilities.
 fn focals(known_before: &KnownBefore) -> Vec<(f64, Expected)> {
     let expected = |focal: f64, sd: f64| Expected { unknown: LN_FOCAL, mean: focal.ln(), sd };
     let usual = expected(known_before.usual_focal, LN_FOCAL_SD);

@@ -1,34 +1,34 @@
-//! What a camera sees of a fold's corners, as a function of all that is unknown.
+//! Positions of a fold's corners in the picture, as a function of the unknowns.
 
 use nalgebra::{Rotation3, SVector, Vector2, Vector3};
 
-/// Numbers that say where six corners are seen, in the order of the constants below.
+/// Numbers that determine the positions of six corners, in the order of the constants below.
 pub(super) const UNKNOWNS: usize = 11;
 /// Angle between the panels, radians.
 pub(super) const ANGLE: usize = 0;
-/// Turn of the fold from how it is first held, a rotation vector of three numbers.
+/// Rotation of the fold from its initial orientation, a rotation vector of three numbers.
 pub(super) const TURN: usize = 1;
-/// Where the middle of the crease is seen without a lens that bends, two numbers.
+/// Position of the crease's middle in the undistorted picture, two numbers.
 pub(super) const MIDDLE: usize = 4;
-/// Logarithm of the size at which something as long as the crease is seen as far away as its middle.
+/// Logarithm of the apparent size of a length equal to the crease at the distance of its middle.
 pub(super) const LN_SIZE: usize = 6;
 /// Logarithm of the focal length.
 pub(super) const LN_FOCAL: usize = 7;
-/// Coefficient of the lens.
+/// Distortion coefficient of the lens.
 pub(super) const K1: usize = 8;
 /// Logarithm of the depth of panel 0, in lengths of the crease.
 pub(super) const LN_DEPTH: usize = 9;
 /// Logarithm of the depth of panel 1 over that of panel 0.
 pub(super) const LN_DEPTH_RATIO: usize = 10;
 
-/// All that is unknown. Lengths in the picture are in halves of its shorter side, the unit of
-/// [`Lens`](crate::image::Lens), from its middle.
+/// The unknowns. Lengths in the picture are relative to half its shorter side, the unit of
+/// [`Lens`](crate::image::Lens), and measured from its middle.
 pub(super) type Unknowns = SVector<f64, UNKNOWNS>;
 
 /// Crease ends 0 and 1, outer ends 1 and 0 of panel 0, the same of panel 1.
 pub(super) type Corners = [Vector2<f64>; 6];
 
-/// The corners in space as [`Fold::panels`](crate::geometry::Fold::panels) has them, the crease being 1 long.
+/// The corners in space as in [`Fold::panels`](crate::geometry::Fold::panels), with a crease of length 1.
 fn in_space(unknowns: &Unknowns) -> [Vector3<f64>; 6] {
     let (sin, cos) = (unknowns[ANGLE] / 2.0).sin_cos();
     let depth = unknowns[LN_DEPTH].exp();
@@ -38,8 +38,8 @@ fn in_space(unknowns: &Unknowns) -> [Vector3<f64>; 6] {
     [end0, end1, end1 + out0, end0 + out0, end1 + out1, end0 + out1]
 }
 
-/// Where the corners are seen by a camera before a fold that is first `held` so, x to the right, y down, z
-/// away from the camera; none if one is not before the camera.
+/// Positions of the corners as seen by a camera, for a fold with the initial orientation `held`; x to the
+/// right, y down, z away from the camera. None unless all are in front of the camera.
 pub(super) fn seen(unknowns: &Unknowns, held: &Rotation3<f64>) -> Option<Corners> {
     let turned = Rotation3::new(unknowns.fixed_rows::<3>(TURN).into_owned()) * held;
     let focal = unknowns[LN_FOCAL].exp();

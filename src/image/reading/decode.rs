@@ -1,4 +1,4 @@
-//! From the bytes of a picture file to stored samples, whatever the file turns out to be.
+//! From the bytes of a picture file of any format to stored samples.
 
 use std::io::{BufRead, Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,27 +19,27 @@ use super::{icc, openexr_pixels, png_chunks};
 use crate::image::photograph::CameraNotes;
 use crate::{Error, Result, room};
 
-/// What a file turned out to hold.
+/// The contents of a file.
 pub(super) enum Decoded {
     Picture(Box<Picture>),
-    /// A camera's RAW file, which was not decoded.
+    /// A camera's RAW file, not decoded here.
     Raw,
 }
 
-/// A picture as it is stored, not yet turned upright, with what the camera wrote beside it.
+/// A picture as stored, not yet turned upright, with the camera's notes.
 pub(super) struct Picture {
     pub format: ImageFormat,
     pub pixels: DynamicImage,
     pub camera: CameraNotes,
-    /// What the file says of its numbers.
+    /// The file's statements on its numbers.
     pub stated: Vec<Statement>,
 }
 
-/// Reads and decodes a picture file; the content, not the name, says which format it is.
+/// Reads and decodes a picture file; its content, not its name, determines the format.
 pub(super) fn decode(file: &mut PictureFile) -> Result<Decoded> {
     let (path, length) = (&file.path().to_owned(), file.length());
     let failed = |source| Error::file(path.display(), source);
-    // the directories of a TIFF file are read with all of it
+    // all of a TIFF file is read to find its directories
     room::ask(length, &path.display().to_string(), TOO_LARGE)?;
     file.rewind().map_err(failed)?;
     let head = file.fill_buf().map_err(failed)?;
@@ -86,7 +86,7 @@ fn decode_tiff(file: &mut PictureFile, path: &Path, length: u64) -> Result<Decod
     Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera, stated })))
 }
 
-/// What a format is called.
+/// The name of a format.
 pub(super) fn name(format: ImageFormat) -> &'static str {
     match format {
         ImageFormat::Png => "PNG",
@@ -96,7 +96,7 @@ pub(super) fn name(format: ImageFormat) -> &'static str {
     }
 }
 
-/// How the names of RAW files end.
+/// Extensions of RAW files.
 const RAW_ENDINGS: [&str; 16] = [
     "3fr", "arw", "cr2", "cr3", "crw", "dng", "erf", "iiq", "mef", "mrw", "nef", "nrw", "orf", "pef", "raf",
     "rw2",
@@ -111,8 +111,7 @@ fn not_named_raw(path: &Path, format: ImageFormat) -> Result<()> {
     Err(Error::picture(path, problem, "give the RAW file, or give the picture the name of one"))
 }
 
-/// First bytes of the RAW files that are not, or not only, laid out as TIFF, or as TIFF with another mark:
-/// where they stand, and what they are.
+/// First bytes of the RAW files that are not plain TIFF, or TIFF with another mark: offset and content.
 const RAW_MARKS: [(usize, &[u8]); 9] = [
     (0, b"FUJIFILMCCD-RAW"), // RAF
     (4, b"ftypcrx "),        // CR3
@@ -133,11 +132,11 @@ fn is_supported(format: &ImageFormat) -> bool {
     matches!(format, ImageFormat::Png | ImageFormat::Tiff | ImageFormat::Jpeg | ImageFormat::OpenExr)
 }
 
-/// A picture; for PNG and JPEG, its EXIF block; what else the file says of its numbers.
+/// A picture; for PNG and JPEG, its EXIF block; the file's other statements on its numbers.
 type PictureAndMore = (DynamicImage, Option<Vec<u8>>, Vec<Statement>);
 
-/// Decodes a file that may be damaged in ways that its decoder does not foresee: a panic of theirs is the
-/// file's fault.
+/// Decodes a file that may be damaged in unforeseen ways: a panic of its decoder counts as a fault of the
+/// file.
 fn foreseen<T>(path: &Path, decode: impl FnOnce() -> Result<T>) -> Result<T> {
     let unforeseen = |_| Err(Error::picture(path, "its decoder failed on it", DAMAGED));
     catch_unwind(AssertUnwindSafe(decode)).unwrap_or_else(unforeseen)
@@ -171,7 +170,7 @@ fn decode_whole(
     Ok((picture, block, stated))
 }
 
-/// The decoder of a file from its beginning.
+/// The decoder of a file, starting at its beginning.
 fn image_decoder(file: &mut PictureFile, format: ImageFormat) -> ImageResult<impl ImageDecoder> {
     file.rewind()?;
     let mut reader = ImageReader::with_format(file, format);
@@ -179,7 +178,7 @@ fn image_decoder(file: &mut PictureFile, format: ImageFormat) -> ImageResult<imp
     reader.into_decoder()
 }
 
-/// What the decoders do not tell, or take for something else: what a file says of its numbers.
+/// A file's statements on its numbers that decoders omit or misinterpret.
 fn before_pixels(path: &Path, file: &mut PictureFile, format: ImageFormat) -> Result<Vec<Statement>> {
     match format {
         ImageFormat::Png => Ok(png_chunks::statements(file)),
@@ -208,7 +207,7 @@ fn limits() -> Limits {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
-    // a decoder's own buffers besides the picture
+    // a decoder's own buffers as well as the picture
     limits.max_alloc = Some(2 * MAX_BYTES);
     limits
 }

@@ -1,7 +1,7 @@
-//! What a camera wrote beside the picture: make, exposure, how it was held.
+//! The camera's notes in EXIF: make, exposure, orientation.
 //!
-//! Nothing in it is needed to measure a picture except the orientation, so what is missing is left out and
-//! what is broken becomes a note.
+//! Measuring needs none of it except the orientation, so missing fields are omitted and broken ones become
+//! notes.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -12,14 +12,13 @@ use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
 use crate::image::numbers::Transfer;
 use crate::image::photograph::{CameraNotes, Orientation};
 
-/// How far EXIF's gamma may be from a number and still mean it.
+/// Tolerance within which EXIF's gamma equals a number.
 const SAME_GAMMA: f64 = 5e-3;
-/// How much of a large TIFF file is read for its tags at the start, at the end and where the first directory
-/// begins.
+/// Bytes of a large TIFF file that are searched for tags at the start, at the end and at the first directory.
 const TAGS_BYTES: usize = 1 << 20;
 
-/// A TIFF file's own EXIF block: the whole file, but of a large one only the places where tags are kept, the
-/// pixels in between left blank.
+/// A TIFF file's own EXIF block: the whole file, but for a large one only the places where tags are kept,
+/// with the pixels in between left blank.
 pub(super) fn tiff_tags(file: &mut (impl Read + Seek)) -> io::Result<Vec<u8>> {
     let mut block = vec![0; file.seek(SeekFrom::End(0))? as usize];
     read_part(file, &mut block, 0)?;
@@ -41,15 +40,15 @@ fn read_part(file: &mut (impl Read + Seek), block: &mut [u8], from: usize) -> io
     file.read_exact(part)
 }
 
-/// What a block says.
+/// The contents of a block.
 pub(super) struct Tags {
     pub camera: CameraNotes,
-    /// Whose colours the picture has, and how its numbers follow the light.
+    /// Colour space and curve of the picture's numbers.
     pub stated: Vec<Statement>,
 }
 
-/// Reads an EXIF block, which is laid out as a TIFF file; a TIFF file is its own block, and its picture may
-/// be on another `page` than the first.
+/// Reads an EXIF block, which has the layout of a TIFF file; a TIFF file is its own block, and its picture
+/// may be on another `page` than the first.
 pub(super) fn read(block: Option<Vec<u8>>, page: usize) -> Tags {
     let mut notes = Vec::new();
     let exif = block.and_then(|block| parse(block, &mut notes));
@@ -79,7 +78,7 @@ pub(super) fn read(block: Option<Vec<u8>>, page: usize) -> Tags {
     }
 }
 
-/// What EXIF and DCF say of a picture's colours. `uncalibrated` says nothing by itself.
+/// Statement of EXIF and DCF on a picture's colours; `uncalibrated` alone states nothing.
 fn colour_space(exif: &Exif) -> Option<Statement> {
     const SRGB: u32 = 1;
     const ADOBE_RGB: u32 = 2;
@@ -95,7 +94,7 @@ fn colour_space(exif: &Exif) -> Option<Statement> {
     Some(Statement { by: "EXIF", says: says.map_err(|()| format!("Adobe RGB, {OTHER_COLOURS}")) })
 }
 
-/// The power of light that EXIF says the numbers are shown by; 2.2 is said of sRGB's curve, too.
+/// EXIF's statement on the exponent for display; 2.2 is also written for sRGB's curve.
 fn gamma(exif: &Exif) -> Option<Statement> {
     let gamma = positive(&exif.get_field(Tag::Gamma, In::PRIMARY)?.value)?;
     let is = |number: f64| (gamma - number).abs() < SAME_GAMMA;
@@ -107,8 +106,8 @@ fn gamma(exif: &Exif) -> Option<Statement> {
     Some(Statement { by: "EXIF Gamma", says })
 }
 
-/// Calls what points to directories of tags LONG where it is called IFD, as by libtiff: both are 4 bytes
-/// long, and the parser knows one of them.
+/// Changes the type of pointers to tag directories from IFD, as written by libtiff, to LONG: both have 4
+/// bytes, and the parser knows only the latter.
 fn directories_as_long(block: &mut [u8]) {
     const ENTRY_BYTES: usize = 12;
     const IFD: u16 = 13;
@@ -143,7 +142,7 @@ fn parse(mut block: Vec<u8>, notes: &mut Vec<String>) -> Option<Exif> {
         .ok()
 }
 
-/// DNG's matrix for D65, which stands first or second.
+/// DNG's matrix for D65, which is the first or the second.
 fn xyz_to_camera(exif: &Exif) -> Option<[[f64; 3]; 3]> {
     const D65: u32 = 21;
     let field = |number| exif.get_field(Tag(Context::Tiff, number), In::PRIMARY).map(|field| &field.value);
@@ -179,7 +178,7 @@ fn positive(value: &Value) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// A little-endian block with the given entries: tag, type, count, value.
+    /// A little-endian block with these entries: tag, type, count, value.
     fn block(entries: &[(u16, u16, u32, u32)]) -> Vec<u8> {
         let mut bytes = b"II*\0\x08\0\0\0".to_vec();
         bytes.extend((entries.len() as u16).to_le_bytes());
@@ -208,7 +207,7 @@ mod tests {
         }
     }
 
-    /// The directory may stand anywhere, here between the pixels of a large file.
+    /// The directory may be anywhere, here between the pixels of a large file.
     #[test]
     fn tags_are_found_in_a_large_file() {
         let (size, directory) = (6 * TAGS_BYTES, 3 * TAGS_BYTES - 5);
@@ -221,7 +220,7 @@ mod tests {
         assert_eq!((camera.orientation.exif(), camera.notes), (6, vec![]));
     }
 
-    /// Libtiff writes the place of EXIF's directory as one of type IFD.
+    /// Libtiff writes the offset of EXIF's directory with type IFD.
     #[test]
     fn directories_are_found_by_either_type() {
         for kind in [4, 13] {

@@ -1,11 +1,11 @@
-//! What EXIF says of place, time and light.
+//! Place, time and light according to EXIF.
 
 use exif::{Exif, In, Rational, Tag, Value};
 
 use super::taken::{by_clock, local, other_light, place_deg, universal};
 use crate::image::photograph::Taken;
 
-/// What is missing or makes no sense is left out.
+/// Missing or implausible fields are omitted.
 pub(super) fn taken(exif: &Exif) -> Taken {
     let field = |tag| exif.get_field(tag, In::PRIMARY).map(|field| &field.value);
     let text = |tag| ascii(field(tag)?).map(|text| String::from_utf8_lossy(text).trim().to_owned());

@@ -1,21 +1,20 @@
-//! ICC profiles, which PNG, TIFF and JPEG files carry.
+//! ICC profiles in PNG, TIFF and JPEG files.
 
 use moxcms::{ColorProfile, DataColorSpace, ProfileText, ToneReprCurve, Xyzd};
 
 use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement, curve_like};
 use crate::image::numbers::Transfer;
 
-/// Furthest, in XYZ under D50, that primaries may be from others and still be them: writers round them in
-/// various ways.
+/// Largest difference, in XYZ under D50, between equal primaries: writers round them in various ways.
 const SAME_PRIMARY: f64 = 3e-3;
 /// Red, green and blue of sRGB, adapted to D50.
 ///
 /// # Source
-/// IEC 61966-2-1:1999, annex F, as `sRGB2014.icc` of the ICC has it.
+/// IEC 61966-2-1:1999, annex F, as in the ICC's `sRGB2014.icc`.
 const SRGB_PRIMARIES: [[f64; 3]; 3] =
     [[0.43607, 0.22249, 0.01392], [0.38515, 0.71687, 0.09708], [0.14307, 0.06061, 0.71410]];
 
-/// What a profile says of a picture's numbers.
+/// A profile's statement on a picture's numbers.
 pub(super) fn statement(profile: &[u8]) -> Statement {
     match ColorProfile::new_from_slice(profile) {
         Ok(profile) => of_profile(meaning(&profile).map_err(|why| format!("'{}', {why}", name(&profile)))),
@@ -43,7 +42,7 @@ fn meaning(profile: &ColorProfile) -> Result<Transfer, &'static str> {
     }
 }
 
-/// The curve of a channel; none where a table of colours takes its place.
+/// The curve of a channel; an error where a colour table takes its place.
 fn curve(tone: Option<&ToneReprCurve>) -> Result<Transfer, &'static str> {
     let tone = tone.and_then(|tone| tone.make_linear_evaluator().ok()).ok_or(OTHER_CURVE)?;
     curve_like(|stored| tone.evaluate_value(stored as f32).into()).ok_or(OTHER_CURVE)
@@ -56,7 +55,7 @@ fn has_srgb_primaries(profile: &ColorProfile) -> bool {
     })
 }
 
-/// What a profile calls itself.
+/// The name in a profile.
 fn name(profile: &ColorProfile) -> String {
     let text = match &profile.description {
         Some(ProfileText::PlainString(text)) => Some(text),

@@ -1,10 +1,10 @@
-//! The markers of a JPEG file, for what its decoder does not tell: whether it is whole, and what its
-//! components are.
+//! The markers of a JPEG file, for information that its decoder omits: whether it is complete, and its
+//! components.
 
 /// A JPEG file's bytes.
 pub(super) struct Jpeg<'a>(pub &'a [u8]);
 
-/// What the header of a frame says.
+/// The header of a frame.
 #[cfg_attr(not(feature = "raw"), allow(dead_code, reason = "the reader of RAW files looks at more of it"))]
 pub(super) struct Frame {
     /// `0xc0` for baseline, `0xc3` for lossless.
@@ -18,12 +18,12 @@ pub(super) struct Frame {
 const END: u8 = 0xd9;
 
 impl Jpeg<'_> {
-    /// Whether it reaches its end marker; the decoder paints what is missing grey and does not say so.
+    /// Whether it reaches its end marker; the decoder silently fills missing parts with grey.
     pub fn is_complete(&self) -> bool {
         self.markers().any(|(marker, _)| marker == END)
     }
 
-    /// How many components a pixel has: 1 grey, 3 colours, 4 inks; none before any frame.
+    /// Number of components per pixel: 1 grey, 3 colours, 4 inks; none without a frame.
     pub fn components(&self) -> Option<u8> {
         self.frame().map(|frame| frame.components)
     }
@@ -45,7 +45,7 @@ impl Jpeg<'_> {
         })
     }
 
-    /// Its markers, and where they are.
+    /// Its markers, and their offsets.
     fn markers(&self) -> impl Iterator<Item = (u8, usize)> {
         let bytes = self.0;
         let mut next = 2;
@@ -60,7 +60,7 @@ impl Jpeg<'_> {
                     2 + length.map_or(0, |length| usize::from(length[0]) << 8 | usize::from(length[1]))
                 }
             };
-            // after a scan's header come its data, up to the next marker
+            // a scan's header is followed by its data, up to the next marker
             let data = bytes.get(next..).and_then(|rest| rest.iter().position(|byte| *byte == 0xff));
             next += data.unwrap_or(bytes.len());
             Some((marker, at))

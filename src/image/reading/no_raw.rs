@@ -1,4 +1,4 @@
-//! In the place of the reader of RAW files, where the feature `raw` is off.
+//! Replaces the reader of RAW files if the feature `raw` is off.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use crate::image::numbers::ReadOptions;
 use crate::image::photograph::Photograph;
 use crate::{Error, Result};
 
-/// Says how RAW files are read.
+/// Explains how to read RAW files.
 pub(super) fn open(path: &Path, _bytes: Vec<u8>, _options: &ReadOptions) -> Result<Photograph> {
     const REMEDY: &str = "in a clone of vfold run share/install, or cargo build --release --features raw; \
                           or convert the file to linear TIFF ('dcraw -4 -T -o 0 -r 1 1 1 1')";

@@ -15,18 +15,17 @@ impl Photograph {
     /// Reads a PNG, TIFF, JPEG or OpenEXR file: 8-bit, 16-bit or float, grey or RGB, with or without alpha;
     /// with the feature `raw` also a camera's RAW file.
     ///
-    /// The content, not the name, tells the format; a picture under the name of a RAW file is refused. What
-    /// the file says of its numbers (ICC profile, EXIF colour space, PNG's chunks, OpenEXR's chromaticities)
-    /// tells the curve where
-    /// [`Transfer::Auto`] asks for it. Alpha is dropped, except that a fully transparent pixel counts as
-    /// missing. The picture is turned upright by its EXIF orientation. At most 2 GiB when decoded and 65536
-    /// px per side.
+    /// The content, not the name, determines the format; a picture named like a RAW file is refused. Where
+    /// [`Transfer::Auto`] is requested, the file's statements on its numbers (ICC profile, EXIF colour space,
+    /// PNG's chunks, OpenEXR's chromaticities) determine the curve. Alpha is dropped, except that fully
+    /// transparent pixels count as missing. The picture is turned upright by its EXIF orientation. At most 2
+    /// GiB when decoded and 65536 px per side.
     ///
     /// # Errors
     /// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture, damaged, cut
-    /// short, empty or too large, has no colours to undo a development of, or says of its numbers what
-    /// contradicts itself or cannot be undone; [`Error::Usage`] if the white level is not above the black
-    /// level.
+    /// short, empty or too large, has no colours whose development could be undone, or makes statements on
+    /// its numbers that contradict each other or cannot be undone; [`Error::Usage`] if the white level is not
+    /// above the black level.
     ///
     /// # Example
     /// ```
@@ -42,7 +41,7 @@ impl Photograph {
         Self::read(PictureFile::open(path)?, options)
     }
 
-    /// Reads a file that is open already, as [`Photograph::open`] does.
+    /// Reads a file that is already open, as [`Photograph::open`] does.
     ///
     /// # Errors
     /// As [`Photograph::open`].
@@ -89,7 +88,7 @@ impl Photograph {
     }
 }
 
-/// The curve that was asked for, or else the one that the file says.
+/// The requested curve, or else the one that the file states.
 fn transfer(path: &Path, picture: &Picture, options: &ReadOptions) -> Result<Transfer> {
     match options.transfer {
         Transfer::Auto => Ok(stated::curve(path, &picture.stated)?.unwrap_or_default()),

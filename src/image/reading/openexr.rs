@@ -1,4 +1,4 @@
-//! What the header of an OpenEXR file says: whose colours it holds, or why it holds none that can be read.
+//! The header of an OpenEXR file: its colour space, or why it contains no readable colours.
 
 use std::io::{Read, Seek};
 
@@ -11,15 +11,15 @@ use super::primaries::are_srgb;
 use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
 use crate::image::numbers::Transfer;
 
-/// What is to be known before the pixels are decoded.
+/// Contents of a file, known before the pixels are decoded.
 pub(super) enum Kind {
-    /// A flat picture in red, green and blue, and what it says of them.
+    /// A flat picture in red, green and blue, and its statements on them.
     Colours(Vec<Statement>),
-    /// Something else, which needs something to be done.
+    /// Something else, and what to do.
     Other { is: String, remedy: &'static str },
 }
 
-/// The kind of a file whose header can be read.
+/// The contents of a file with a readable header.
 pub(super) fn kind(file: impl Read + Seek) -> Option<Kind> {
     let MetaData { headers, .. } = MetaData::read_from_buffered(file, false).ok()?;
     let in_colour: Vec<_> = headers.iter().filter(|header| is_in_colour(header)).collect();
@@ -36,7 +36,7 @@ pub(super) fn kind(file: impl Read + Seek) -> Option<Kind> {
 
 const OTHER_COMPRESSION: &str = "save it with another compression, such as ZIP";
 
-/// Why a picture in red, green and blue cannot be read all the same, and what to do.
+/// Why a picture in red, green and blue cannot be read nevertheless, and what to do.
 fn not_read(header: &Header) -> Option<(String, &'static str)> {
     if let Compression::HTJ2K32 | Compression::HTJ2K256 = header.compression {
         let is = "this vfold does not read OpenEXR compressed by HTJ2K".to_owned();
@@ -66,12 +66,12 @@ fn not_read(header: &Header) -> Option<(String, &'static str)> {
     None
 }
 
-/// The eyes or cameras that one part has pictures of.
+/// The eyes or cameras whose pictures one part contains.
 fn views(header: &Header) -> Vec<String> {
     header.own_attributes.multi_view_names.iter().flatten().map(ToString::to_string).collect()
 }
 
-/// That several parts are in colour, by their names or numbers.
+/// Message that several parts are in colour, with their names or numbers.
 fn several(headers: &[Header]) -> String {
     let in_colour = headers.iter().enumerate().filter(|(_, header)| is_in_colour(header));
     let names = in_colour.map(|(n, header)| match &header.own_attributes.layer_name {
@@ -91,7 +91,7 @@ fn has<const N: usize>(header: &Header, names: [&str; N]) -> bool {
     names.into_iter().all(names_in)
 }
 
-/// What there is in the place of colours.
+/// What the file contains in place of colours.
 fn other(headers: &[Header]) -> (String, &'static str) {
     let is_deep = headers.iter().any(|header| header.deep);
     let names =
@@ -109,7 +109,7 @@ fn other(headers: &[Header]) -> (String, &'static str) {
     (format!("a picture of {}", names().collect::<Vec<_>>().join(", ")), "save it as R, G and B")
 }
 
-/// Whether there are pixels all over the window that is shown: decoders make the rest black.
+/// Whether pixels fill the display window: decoders make the rest black.
 fn is_filled(header: &Header) -> bool {
     let (shown, data) = (header.shared_attributes.display_window, header.own_attributes.layer_position);
     let from = shown.position - data;
@@ -120,7 +120,7 @@ fn is_filled(header: &Header) -> bool {
         && end(from.y(), shown.size.y()) <= header.layer_size.y() as i64
 }
 
-/// What a header says of its numbers. Chromaticities alone are those of linear light.
+/// A header's statements on its numbers. Chromaticities alone imply linear light.
 fn statements(header: &Header) -> Vec<Statement> {
     let (interop, colours) = (interop(header), colours(header));
     let says_curve = interop.is_some();
@@ -128,7 +128,7 @@ fn statements(header: &Header) -> Vec<Statement> {
     [interop, colours].into_iter().flatten().collect()
 }
 
-/// `whiteLuminance` says how bright 1 was, which no measurement here depends on.
+/// `whiteLuminance` states how bright 1 was, on which no measurement depends.
 fn colours(header: &Header) -> Option<Statement> {
     let says = header.shared_attributes.chromaticities?;
     let corners =
@@ -138,11 +138,11 @@ fn colours(header: &Header) -> Option<Statement> {
     Some(Statement { by: "attribute chromaticities", says })
 }
 
-/// The colour space by its name: `lin_rec709_scene` is linear, in the colours of Rec. 709, which are sRGB's.
+/// The colour space by name: `lin_rec709_scene` is linear, with the primaries of Rec. 709, which are sRGB's.
 ///
 /// # Source
-/// Color Interop Forum, "Color Space Encodings for Texture Assets and CG Rendering" (2025), as OpenEXR 3.4
-/// has it.
+/// Color Interop Forum, "Color Space Encodings for Texture Assets and CG Rendering" (2025), as in OpenEXR
+/// 3.4.
 fn interop(header: &Header) -> Option<Statement> {
     let attributes = header.own_attributes.other.iter().chain(&header.shared_attributes.other);
     let text = attributes.into_iter().find_map(|(name, value)| match value {

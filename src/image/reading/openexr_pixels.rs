@@ -1,6 +1,6 @@
-//! The pixels of an OpenEXR file, decoded to where they stay.
+//! The pixels of an OpenEXR file, decoded in place.
 //!
-//! `image` has them decoded elsewhere and then copies them: twice the memory, and a third of the time.
+//! `image` decodes them elsewhere and then copies them: twice the memory, and a third of the time.
 
 use std::io::{BufRead, Seek};
 
@@ -9,8 +9,8 @@ use image::{DynamicImage, ImageBuffer};
 
 use super::openexr::is_in_colour;
 
-/// The picture of such a size in a file, with alpha if it has it; none if something is wrong with it, which
-/// is left to `image` to say.
+/// The picture of this size in a file, with alpha if present; none on any error, which is left to `image` to
+/// report.
 pub(super) fn decode(
     file: impl BufRead + Seek,
     (width, height): (u32, u32),
@@ -25,7 +25,7 @@ pub(super) fn decode(
     }
 }
 
-/// The samples of what an OpenEXR file shows; pixels beyond are left out.
+/// The samples in an OpenEXR file's display window; pixels beyond it are dropped.
 fn samples<const N: usize>(
     file: impl BufRead + Seek,
     (width, height): (u32, u32),

@@ -1,4 +1,4 @@
-//! The bytes of a picture, which readers go back and forth in.
+//! The bytes of a picture, with random access.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
@@ -8,7 +8,7 @@ use super::refused::{MAX_BYTES, TOO_LARGE};
 use crate::image::photograph::FileStamp;
 use crate::{Error, Result};
 
-/// A file opened once. What cannot be gone back in, such as a named pipe or a shell's `<(...)`, is read into
+/// A file opened once. Files without random access, such as a named pipe or a shell's `<(...)`, are read into
 /// memory.
 #[derive(Debug)]
 pub struct PictureFile {
@@ -25,7 +25,7 @@ enum Bytes {
 }
 
 impl PictureFile {
-    /// Opens a file, whatever it holds, of at most 2 GiB.
+    /// Opens a file of any content, at most 2 GiB.
     ///
     /// # Errors
     /// [`Error::File`] if it cannot be opened, or is a pipe that cannot be read; [`Error::Picture`] if it is
@@ -65,17 +65,17 @@ impl PictureFile {
         &self.path
     }
 
-    /// Its size and time, if it is one that stays.
+    /// Its size and time, if it is a regular file.
     pub(super) fn stamp(&self) -> Option<FileStamp> {
         self.stamp
     }
 
-    /// How many bytes it has.
+    /// Its size, bytes.
     pub(super) fn length(&self) -> u64 {
         self.length
     }
 
-    /// All of it.
+    /// All of its bytes.
     pub(super) fn into_bytes(self) -> Result<Vec<u8>> {
         match self.bytes {
             Bytes::Read(bytes) => Ok(bytes.into_inner()),

@@ -1,4 +1,4 @@
-//! What the chunks of a PNG file say of its numbers, an ICC profile apart.
+//! Statements of a PNG file's chunks on its numbers, except an ICC profile.
 
 use std::io::{BufRead, Seek};
 
@@ -8,13 +8,12 @@ use super::primaries::are_srgb;
 use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
 use crate::image::numbers::Transfer;
 
-/// What writers say of sRGB in gAMA, which has no number for its curve (PNG, third edition, 11.3.2.5).
+/// The gAMA that writers use for sRGB, whose curve has no such number (PNG, third edition, 11.3.2.5).
 const GAMMA_OF_SRGB: f64 = 0.45455;
-/// How far gAMA may be from a number and still mean it.
+/// Tolerance within which gAMA equals a number.
 const SAME_GAMMA: f64 = 5e-4;
 
-/// What the chunks before the pixels say; nothing of a file that cannot be read, which its decoder will
-/// refuse.
+/// Statements of the chunks before the pixels; none for an unreadable file, which its decoder will refuse.
 pub(super) fn statements(file: impl BufRead + Seek) -> Vec<Statement> {
     Decoder::new(file).read_info().map_or_else(|_| Vec::new(), |reader| of_info(reader.info()))
 }

@@ -1,4 +1,4 @@
-//! Which pictures are refused, and what is to be done about it.
+//! Which pictures are refused, and what to do.
 
 use std::path::Path;
 
@@ -6,19 +6,18 @@ use image::ImageError;
 
 use crate::{Error, Result};
 
-/// Largest picture, decoded, and largest file: 2 GiB, some 350 megapixels of 16-bit RGB.
+/// Largest decoded picture, and largest file: 2 GiB, some 350 megapixels of 16-bit RGB.
 pub(super) const MAX_BYTES: u64 = 2 << 30;
 /// Largest width and height, px.
 pub(super) const MAX_SIDE: u32 = 1 << 16;
-/// Bytes of a picture that one byte of a file may stand for: deflate makes at most 1032 of one, other
-/// compressions fewer than these.
+/// Largest compression ratio: that of deflate is at most 1032, of other methods below this.
 const MAX_COMPRESSION: u64 = 1 << 16;
 
 pub(super) const TOO_LARGE: &str = "crop the picture to the sheet";
 pub(super) const DAMAGED: &str = "the file is damaged or cut short: copy it again";
 pub(super) const RESAVE: &str = "save it again as PNG, TIFF, JPEG or OpenEXR, RGB or grey";
 
-/// Checks that a picture of so many bytes is there, is not too large, and may be in a file of that length.
+/// Checks that a picture of this many bytes is not empty or too large, and fits into a file of this length.
 pub(super) fn check_size(path: &Path, (width, height): (u32, u32), bytes: u64, length: u64) -> Result<()> {
     if width == 0 || height == 0 {
         let problem = format!("the picture is {width} x {height} px");
@@ -45,7 +44,7 @@ pub(super) fn inks(path: &Path) -> Error {
 
 pub(super) fn undecodable(path: &Path, error: ImageError) -> Error {
     let problem = one_line(&error.to_string());
-    // what OpenEXR's decoder says of files that are whole
+    // OpenEXR's decoder reports this for undamaged files
     if let Some((_, what)) = problem.split_once("not supported: ") {
         return Error::picture(path, format!("this vfold does not read this file: {what}"), RESAVE);
     }
@@ -57,12 +56,12 @@ pub(super) fn undecodable(path: &Path, error: ImageError) -> Error {
     Error::picture(path, problem, remedy)
 }
 
-/// A decoder's message, which may have several lines, in one.
+/// Joins the lines of a decoder's message.
 pub(super) fn one_line(message: &str) -> String {
     message.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Of a file that contradicts itself.
+/// For a file that contradicts itself.
 pub(super) fn damaged(path: &Path, problem: impl Into<String>) -> Error {
     Error::picture(path, problem.into(), DAMAGED)
 }

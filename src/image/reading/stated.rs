@@ -1,40 +1,40 @@
-//! What a picture file says of its own numbers: how they follow the light, and whose colours they are.
+//! Statements of a picture file on its own numbers: their curve and colour space.
 //!
-//! A picture that says nothing is read by its depth. One that says several things which do not agree, or
-//! something that cannot be undone here, is refused: only who made it knows.
+//! A picture without statements is read by its depth. One with contradictory statements, or with one that
+//! cannot be undone here, is refused: only its author knows.
 
 use std::path::Path;
 
 use crate::image::numbers::Transfer;
 use crate::{Error, Result};
 
-/// One thing that a file says.
+/// One statement of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Statement {
-    /// Where it says it.
+    /// Where it is made.
     pub by: &'static str,
-    /// The curve; or what it says where that is no curve of [`Transfer`], or the colours are neither a
+    /// The curve; or a description if it is no curve of [`Transfer`], or if the colours are neither a
     /// camera's own nor sRGB's.
     pub says: std::result::Result<Transfer, String>,
 }
 
-/// What is wrong with a curve,
+/// Objection to a curve.
 pub(super) const OTHER_CURVE: &str = "whose curve is neither linear nor sRGB's";
-/// and with colours: they were made of a camera's by a matrix that the file does not tell.
+/// Objection to colours: a matrix that the file does not contain computed them from a camera's.
 pub(super) const OTHER_COLOURS: &str = "whose primaries are not sRGB's";
 
-/// Furthest that a curve may be from another and still be it: gamma 2.2 is 0.009 from sRGB's, tables of it
-/// with a few rows 0.001.
+/// Largest difference between equal curves: gamma 2.2 is 0.009 from sRGB's, tables of it with a few rows
+/// 0.001.
 const SAME_CURVE: f64 = 2e-3;
 
-/// How to read it all the same.
+/// How to read it nevertheless.
 const REMEDY: &str = "export it again, linear or as sRGB, or say with --transfer linear or srgb how \
                       its numbers are to be read";
 
-/// The curve that the file's statements agree on, none if there are none.
+/// The curve on which the file's statements agree, none if there are none.
 ///
 /// # Errors
-/// [`Error::Picture`] if they contradict each other, or one is none that can be undone.
+/// [`Error::Picture`] if they contradict each other, or one cannot be undone.
 pub(super) fn curve(path: &Path, statements: &[Statement]) -> Result<Option<Transfer>> {
     let mut agreed: Option<(&str, Transfer)> = None;
     for Statement { by, says } in statements {
@@ -51,7 +51,7 @@ pub(super) fn curve(path: &Path, statements: &[Statement]) -> Result<Option<Tran
     Ok(agreed.map(|(_, curve)| curve))
 }
 
-/// The curve that is this one, from stored numbers in [0, 1] to linear light.
+/// The known curve equal to this one, which maps stored numbers in [0, 1] to linear light.
 pub(super) fn curve_like(to_linear: impl Fn(f64) -> f64) -> Option<Transfer> {
     let is = |curve: &Transfer| {
         (0..=255)

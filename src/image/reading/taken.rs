@@ -1,18 +1,18 @@
-//! What pictures say of place, time and light, as EXIF has it; the two readers of EXIF give the parts.
+//! Place, time and light of pictures from the fields that the two readers of EXIF return.
 
 use crate::image::photograph::OtherLight;
 
-/// Degrees, minutes and seconds, and the side of the equator or of Greenwich on which they lie.
+/// Degrees, minutes and seconds, and the hemisphere.
 pub(super) type Angle<'a> = ([f64; 3], &'a str);
 
-/// Latitude and longitude, degrees, south and west being below zero. None if that is no place, or both are
-/// zero: without a fix, or wiped.
+/// Latitude and longitude, degrees, negative south and west. None if they are out of range, or both zero:
+/// without a fix, or wiped.
 pub(super) fn place_deg(latitude: Angle, longitude: Angle) -> Option<[f64; 2]> {
     let place = [degrees(latitude, ['N', 'S'], 90.0)?, degrees(longitude, ['E', 'W'], 180.0)?];
     place.iter().any(|degrees| degrees.abs() > 0.0).then_some(place)
 }
 
-/// A side may be a letter or a word, such as `South`.
+/// The hemisphere may be a letter or a word, such as `South`.
 fn degrees(([degrees, minutes, seconds], side): Angle, [above, below]: [char; 2], most: f64) -> Option<f64> {
     let degrees = degrees + minutes / 60.0 + seconds / 3600.0;
     let side = side.trim().chars().next()?.to_ascii_uppercase();
@@ -24,8 +24,8 @@ fn degrees(([degrees, minutes, seconds], side): Angle, [above, below]: [char; 2]
     (degrees.abs() <= most).then_some(degrees)
 }
 
-/// A time with its difference from UTC, of `2026:06:21 14:30:00` and `+02:00`; none if one of them is blank
-/// or cannot be.
+/// A time with its offset from UTC, from `2026:06:21 14:30:00` and `+02:00`; none if either is blank or
+/// invalid.
 pub(super) fn local(date_and_time: &str, offset: &str) -> Option<String> {
     let offset = offset.trim();
     let is_offset = match offset.as_bytes() {
@@ -37,14 +37,14 @@ pub(super) fn local(date_and_time: &str, offset: &str) -> Option<String> {
     is_offset.then(|| at + offset)
 }
 
-/// A time of a clock, of `2026:06:21 14:30:00`; none if it is blank or cannot be.
+/// A time by the clock, from `2026:06:21 14:30:00`; none if it is blank or invalid.
 pub(super) fn by_clock(date_and_time: &str) -> Option<String> {
     let (date, time) = date_and_time.trim().split_once(' ')?;
     let time: Vec<f64> = time.trim().split(':').map(|part| part.parse().ok()).collect::<Option<_>>()?;
     moment(date, time.try_into().ok()?)
 }
 
-/// A time of UTC, of its date (`2026:06:21`), hours, minutes and seconds; none if they cannot be.
+/// A time in UTC, from its date (`2026:06:21`), hours, minutes and seconds; none if they are invalid.
 pub(super) fn universal(date: &str, time: [f64; 3]) -> Option<String> {
     moment(date, time).map(|at| at + "Z")
 }
@@ -60,7 +60,7 @@ fn moment(date: &str, [hour, minute, second]: [f64; 3]) -> Option<String> {
     is_time.then(|| format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}"))
 }
 
-/// The light that is not the sun's, by the flash and the number that EXIF has for lights.
+/// A light other than the sun, from the flash and EXIF's number of the light source.
 pub(super) fn other_light(has_fired: bool, source: Option<u32>) -> Option<OtherLight> {
     match source {
         _ if has_fired => Some(OtherLight::Flash),

@@ -1,18 +1,18 @@
-//! Which characters of a plot a curve, its band and its truth fall on.
+//! Places a curve, its band and its truth in the characters of a plot.
 
 use crate::plot::spectra::{Curve, highest};
 
-/// Lines of a plot, its axis left out.
+/// Rows of a plot, without its axis.
 pub const ROWS: usize = 12;
-/// Reflectances at the top, whose quarters have two decimals.
+/// Reflectances at the top, chosen so that quarters have two decimals.
 const TOPS: [f64; 6] = [0.08, 0.12, 0.2, 0.4, 0.6, 0.8];
 /// The bits of a braille character, row by row.
 const BITS: [[u8; 2]; 4] = [[0, 3], [1, 4], [2, 5], [6, 7]];
 
-/// What a character shows; the curve hides the truth, and that the band.
+/// Contents of a character; the curve hides the truth, which hides the band.
 #[derive(Clone, Copy, Default)]
 pub struct Cell {
-    /// Bits of the braille character that has the curve's dots.
+    /// Bits of the braille character for the curve's dots.
     pub dots: u8,
     pub truth: bool,
     pub band: bool,
@@ -20,7 +20,7 @@ pub struct Cell {
 
 /// The area between the axes.
 pub struct Canvas {
-    /// From the top.
+    /// From top to bottom.
     pub rows: Vec<Vec<Cell>>,
     /// First and last wavelength.
     pub ends_nm: [f64; 2],
@@ -29,7 +29,7 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// A curve on so many columns, each a character of so many dots across and down.
+    /// A curve on `width` columns, each a character with this many dots across and down.
     pub fn of(curve: &Curve, width: usize, dots: [usize; 2]) -> Self {
         let reach = highest(curve);
         let top = TOPS.into_iter().find(|top| reach <= *top).unwrap_or(1.0);
@@ -41,13 +41,13 @@ impl Canvas {
         canvas
     }
 
-    /// The wavelength in the middle of a column of so many.
+    /// The wavelength in the middle of one of `columns` columns.
     fn nm(&self, column: usize, columns: usize) -> f64 {
         let [first, last] = self.ends_nm;
         first + (column as f64 + 0.5) / columns as f64 * (last - first)
     }
 
-    /// The line, of so many from the top, on which a reflectance lies.
+    /// The line, of `lines` from the top, that contains a reflectance.
     fn line(&self, reflectance: f64, lines: usize) -> usize {
         let from_top = (1.0 - reflectance / self.top) * lines as f64;
         (from_top.max(0.0) as usize).min(lines - 1)
@@ -74,7 +74,7 @@ impl Canvas {
         }
     }
 
-    /// Sets the dots of a curve, each joined to the one before it.
+    /// Sets the dots of a curve, connecting successive ones.
     fn trace(
         &mut self,
         wavelengths_nm: &[f64],
@@ -97,7 +97,7 @@ impl Canvas {
     }
 }
 
-/// The value at a wavelength, on the line between its neighbours; none outside.
+/// The value at a wavelength, interpolated linearly; none outside.
 fn at(wavelengths_nm: &[f64], values: &[f64], nm: f64) -> Option<f64> {
     let right = wavelengths_nm.partition_point(|sample| *sample <= nm);
     let left = right.checked_sub(1)?;

@@ -1,4 +1,4 @@
-//! Direct light of a lamp or a window of some size on patches, shadows included.
+//! Direct light of an extended lamp or window on patches, including shadows.
 
 use rayon::prelude::*;
 
@@ -10,13 +10,13 @@ use crate::kernel::quadrature::Rule;
 use crate::surfaces::polygon::Polygon;
 use crate::surfaces::shape::Shape;
 
-/// Points along each side of a patch: of a whole panel with a window at half its size, without a shadow, they
-/// leave 1e-5.
+/// Points along each side of a patch: for a whole panel with a window at half its size, unshadowed, the error
+/// is 1e-5.
 const POINTS: usize = 4;
 
 /// Mean irradiance of every patch by a `lamp` that shines on the side of its normal and would give 1 to a
-/// plane that sees nothing else: at points of the patch, by Lambert's formula for what of the lamp is above
-/// the horizon and no facet hides.
+/// plane that sees nothing else: at points of the patch, by Lambert's formula for the part of the lamp that
+/// is above the horizon and not hidden by facets.
 ///
 /// # Example
 /// ```

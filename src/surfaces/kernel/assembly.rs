@@ -1,4 +1,4 @@
-//! The form factors of all pairs of patches, each by the formula that suits it.
+//! The form factors of all pairs of patches, each by the most suitable formula.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -12,33 +12,33 @@ use super::symmetric::Rows;
 use super::{contour, far, partial};
 use crate::surfaces::shape::Shape;
 
-/// Patches that look for their casters together.
+/// Patches that search for their casters together.
 const BLOCK: usize = 32;
-/// Shares of exchange below this are rounding: what is seen along a line of sight that an edge just touches.
+/// Exchange below this is rounding: a line of sight that just touches an edge.
 const NOTHING: f64 = 1e-7;
 
-/// Most entries kept: in single precision and with their places a gigabyte.
+/// Most entries stored: in single precision and with their indices a gigabyte.
 const ENTRIES_MAX: usize = 240_000_000;
 
-/// How many pairs of patches were dealt with in which way.
+/// Numbers of pairs of patches by treatment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Census {
-    /// In one plane or behind each other: they exchange nothing.
+    /// Coplanar or behind each other: no exchange.
     pub averted: usize,
-    /// Nothing can stand between them.
+    /// Nothing can be between them.
     pub open: usize,
-    /// One facet hides all of one from all of the other.
+    /// One facet hides them completely from each other.
     pub walled: usize,
-    /// Others may stand between them: their shadows were cut out.
+    /// Others may be between them: their shadows were cut out.
     pub hidden: usize,
 }
 
-/// All pairs of patches, part by part.
+/// Assembles all pairs of patches, part by part.
 pub(super) struct Assembly {
     pub(super) sites: Vec<Site>,
     pub(super) casters: Casters,
     tolerance: f64,
-    /// Relative error of the rules for pairs that are far apart.
+    /// Relative error of the rules for distant pairs.
     truncation: f64,
     numbers: AtomicUsize,
     averted: AtomicUsize,
@@ -63,7 +63,7 @@ impl Assembly {
         }
     }
 
-    /// Whether there are more entries than are kept: then no more are found.
+    /// Whether the limit of entries is exceeded: then no more are computed.
     pub(super) fn is_full(&self) -> bool {
         self.numbers.load(Relaxed) > ENTRIES_MAX
     }
@@ -113,7 +113,8 @@ impl Assembly {
         (!block.entries.is_empty()).then_some(block)
     }
 
-    /// The exchange right of the diagonal of `rows` with `columns`, given in parts with the casters between.
+    /// The exchange right of the diagonal between `rows` and `columns`, in parts with the casters between
+    /// them.
     fn rows(
         &self,
         rows: Range<usize>,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::symmetric::Rows;
 
-/// What some rows have right of the diagonal in a range of columns, which stands for its mirror image too.
+/// Entries of some rows right of the diagonal in a range of columns, representing their mirror image as well.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
     pub(super) rows: Range<usize>,
@@ -13,7 +13,7 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// Adds what this block, or its mirror image, has of one row of the matrix to `out`.
+    /// Adds the entries of this block, or of its mirror image, in one row of the matrix to `out`.
     pub(super) fn add_row(&self, row: usize, out: &mut [f64]) {
         if self.rows.contains(&row) || self.columns.contains(&row) {
             self.entries.add_row(row, out);

@@ -1,15 +1,15 @@
-//! Which facets may stand between two others: cheap tests that never miss one, so that most pairs need no
-//! look for shadows.
+//! Facets that may be between two others: cheap tests without false negatives, so that most pairs need no
+//! search for shadows.
 
 use crate::geometry::Vec3;
 use crate::surfaces::merged::merged;
 use crate::surfaces::polygon::{Plane, Polygon, edges};
 
-/// Distances below this, relative to the surface's size, count as zero: a facet touching the line of sight
-/// hides nothing.
+/// Distances below this, relative to the surface's size, count as zero: a facet that touches the line of
+/// sight hides nothing.
 pub const TOUCHING: f64 = 1e-9;
 
-/// A box along the axes.
+/// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     low: Vec3,
@@ -17,7 +17,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box round points.
+    /// The bounding box of points.
     pub fn of<'a>(points: impl IntoIterator<Item = &'a Vec3>) -> Self {
         let empty = Self { low: Vec3::repeat(f64::INFINITY), high: Vec3::repeat(f64::NEG_INFINITY) };
         points
@@ -25,13 +25,13 @@ impl Bounds {
             .fold(empty, |all, point| Self { low: all.low.inf(point), high: all.high.sup(point) })
     }
 
-    /// The box round two.
+    /// The bounding box of two boxes.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
-    /// Whether two boxes share a point.
+    /// Whether two boxes intersect.
     fn overlaps(&self, other: &Self) -> bool {
         (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
     }
@@ -42,7 +42,7 @@ impl Bounds {
         (self.high - self.low).max()
     }
 
-    /// Least and greatest height of the box over a plane with a unit normal.
+    /// Least and greatest height of the box above a plane with a unit normal.
     #[must_use]
     pub fn heights(&self, plane: &Plane) -> [f64; 2] {
         let middle = plane.height(&(0.5 * (self.low + self.high)));
@@ -51,18 +51,18 @@ impl Bounds {
     }
 }
 
-/// What stands between two polygons.
+/// Facets between two polygons.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Between {
-    /// Nothing can.
+    /// None are possible.
     Nothing,
-    /// One facet that hides all of one from all of the other.
+    /// One facet that hides the polygons completely from each other.
     Wall,
-    /// These may.
+    /// These are possible.
     Some(Vec<Polygon>),
 }
 
-/// A flat part of the surface as something that may cast a shadow.
+/// A flat part of the surface that may cast a shadow.
 pub struct Caster {
     polygon: Polygon,
     plane: Plane,
@@ -70,11 +70,11 @@ pub struct Caster {
 }
 
 impl Caster {
-    /// Whether all between the corners `a` is hidden from all between the corners `b`, or nothing is; none if
-    /// neither is certain.
+    /// Whether everything between the corners `a` is hidden from everything between the corners `b`, or
+    /// nothing is; none if neither is certain.
     ///
-    /// Lines from a hull on one side of a plane to one on the other cross it in the hull of the crossings of
-    /// lines between corners.
+    /// Lines from a hull on one side of a plane to one on the other cross it within the hull of the crossings
+    /// of lines between corners.
     fn hides(&self, a: &[Vec3], b: &[Vec3], margin: f64) -> Option<bool> {
         let heights = |corners: &[Vec3]| {
             let heights = corners.iter().map(|corner| self.plane.height(corner));
@@ -95,7 +95,7 @@ impl Caster {
         self.holds(&crossings.collect::<Vec<_>>(), margin)
     }
 
-    /// Whether all points of its plane lie in it, or all beyond one of its sides; none if neither.
+    /// Whether all points in its plane are inside it, or all beyond one of its sides; none if neither.
     fn holds(&self, points: &[Vec3], margin: f64) -> Option<bool> {
         let mut inside = true;
         for (from, to) in edges(self.polygon.corners()) {
@@ -119,7 +119,7 @@ pub struct Casters {
 }
 
 impl Casters {
-    /// Those of a surface of largest extent `size`.
+    /// The casters of a surface with largest extent `size`.
     pub fn new<'a>(facets: impl Iterator<Item = &'a Polygon>, size: f64) -> Self {
         let caster = |polygon: Polygon| Caster {
             plane: polygon.plane(),
@@ -135,20 +135,20 @@ impl Casters {
         self.margin
     }
 
-    /// Numbers of all.
+    /// Numbers of all casters.
     #[must_use]
     pub fn numbers(&self) -> Vec<usize> {
         (0..self.all.len()).collect()
     }
 
-    /// The plane of one of them.
+    /// The plane of a caster.
     #[must_use]
     pub fn plane(&self, number: usize) -> &Plane {
         &self.all[number].plane
     }
 
-    /// Those among `candidates` that may stand between things in two boxes: which reach into the box round
-    /// both, and have not both on the same side of their plane.
+    /// Those among `candidates` that may be between the contents of two boxes: they intersect the common
+    /// bounding box, which extends to both sides of their plane.
     #[must_use]
     pub fn between_boxes(&self, a: &Bounds, b: &Bounds, candidates: &[usize]) -> Vec<usize> {
         let both = a.with(b);
@@ -159,7 +159,7 @@ impl Casters {
         candidates.iter().copied().filter(|n| stands(&self.all[*n])).collect()
     }
 
-    /// What of `candidates` may stand between two polygons: parts that are in front of both planes.
+    /// Those of `candidates` that may be between two polygons: their parts in front of both planes.
     #[must_use]
     pub fn between(&self, a: &Polygon, b: &Polygon, candidates: &[usize]) -> Between {
         let [box_a, box_b] = [a, b].map(|polygon| Bounds::of(polygon.corners()));
@@ -175,8 +175,8 @@ impl Casters {
         if parts.is_empty() { Between::Nothing } else { Between::Some(parts) }
     }
 
-    /// Those of `candidates` that may hide some of all between the corners `a` from some of all between the
-    /// corners `b`; none if one hides all from all.
+    /// Those of `candidates` that may hide part of the hull of corners `a` from part of the hull of corners
+    /// `b`; none if one hides everything.
     #[must_use]
     pub fn between_hulls(&self, a: &[Vec3], b: &[Vec3], candidates: &[usize]) -> Option<Vec<usize>> {
         let mut may = Vec::new();
@@ -190,13 +190,13 @@ impl Casters {
         Some(may)
     }
 
-    /// The parts of all facets in front of a plane: those that may stand between it and a light.
+    /// The parts of all facets in front of a plane, which may be between it and a light.
     #[must_use]
     pub fn in_front_of(&self, plane: &Plane) -> Vec<Polygon> {
         (0..self.all.len()).filter_map(|n| self.in_front(n, &[*plane])).collect()
     }
 
-    /// The part of a facet that is in front of planes, by more than a margin.
+    /// The part of a facet in front of planes, by more than a margin.
     fn in_front(&self, n: usize, planes: &[Plane]) -> Option<Polygon> {
         let polygon = self.all[n].polygon.clone();
         planes.iter().try_fold(polygon, |rest, plane| rest.in_front_of(&plane.raised(self.margin)))

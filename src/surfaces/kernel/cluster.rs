@@ -1,4 +1,4 @@
-//! Patches that are near to each other and turned alike, in a tree of halves.
+//! Patches that are near to each other and similarly oriented, in a binary tree.
 
 use std::ops::Range;
 
@@ -10,31 +10,31 @@ use crate::surfaces::polygon::Plane;
 
 /// Clusters of at most this many patches are not divided.
 const LEAF: usize = 64;
-/// Cosine of the angle by which patches of an even cluster may turn away from their mean normal.
+/// Cosine of the largest angle between patches of an even cluster and their mean normal.
 const EVEN: f64 = 0.9;
 
-/// Patches that are neighbours in the order of the tree.
+/// Consecutive patches in the order of the tree.
 pub(super) struct Cluster {
     pub(super) patches: Range<usize>,
     pub(super) bounds: Bounds,
-    /// The box round all: of an even cluster along the axes of the largest one that it is in, so that what is
-    /// a polynomial along the axes of one is so in all of its parts.
+    /// The bounding box: for an even cluster, along the axes of the largest even cluster that contains it, so
+    /// that a polynomial along the axes of one is a polynomial in all of its parts.
     pub(super) cuboid: Cuboid,
-    /// Whether the patches lie in one plane, or, with no flat part that would be better off alone, are turned
-    /// alike.
+    /// Whether the patches are coplanar or, with no flat part large enough to be treated alone, similarly
+    /// oriented.
     pub(super) is_even: bool,
-    /// Planes of the patches, neighbours in one plane once.
+    /// Planes of the patches, without adjacent duplicates.
     planes: Vec<Plane>,
-    /// Both halves, further down in the list of clusters; none of a cluster that is not divided.
+    /// Both halves, further down in the list of clusters; none if the cluster is not divided.
     pub(super) halves: Option<[usize; 2]>,
 }
 
-/// How one cluster lies to another.
+/// Position of one cluster relative to another.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
-    /// All of it in front of every patch of the other.
+    /// Entirely in front of every patch of the other.
     Front,
-    /// None of it in front of any.
+    /// Nowhere in front of any.
     Behind,
     /// Neither is certain.
     Between,
@@ -61,7 +61,7 @@ impl Cluster {
         }
     }
 
-    /// On which side of the patches of `other` this cluster is.
+    /// The position of this cluster relative to the patches of `other`.
     pub(super) fn side(&self, other: &Self, margin: f64) -> Side {
         let corners = self.cuboid.corners();
         let heights = other.planes.iter().flat_map(|plane| corners.iter().map(|corner| plane.height(corner)));
@@ -75,19 +75,19 @@ impl Cluster {
     }
 }
 
-/// All patches in clusters, each before its halves: the first holds all.
+/// All patches in clusters, each before its halves: the first contains all.
 pub(super) struct Tree {
     pub(super) clusters: Vec<Cluster>,
-    /// The patch at every place: clusters are ranges of places.
+    /// The patch at each position: clusters are ranges of positions.
     pub(super) order: Vec<usize>,
 }
 
 impl Tree {
-    /// The tree of some patches; lengths below `margin` count as zero.
+    /// The tree of these patches; lengths below `margin` count as zero.
     pub(super) fn new(sites: &[Site], margin: f64) -> Self {
         let size = Bounds::of(sites.iter().flat_map(|site| site.polygon.corners())).size();
-        // A quarter turn counts as much as the whole surface is long: panels come apart before they are
-        // divided.
+        // a quarter turn counts as much as the length of the surface: panels are separated before they are
+        // divided
         let key = |site: &Site| {
             let (place, turn) = (site.centre, size * site.plane.normal);
             [place.x, place.y, place.z, turn.x, turn.y, turn.z]
@@ -98,7 +98,7 @@ impl Tree {
         tree
     }
 
-    /// Adds the cluster of the patches at some places, and all of its parts; returns its number.
+    /// Adds the cluster of the patches at some positions, and all of its parts; returns its number.
     fn grow(
         &mut self,
         sites: &[Site],
@@ -121,7 +121,7 @@ impl Tree {
         number
     }
 
-    /// Whether some corner in a cluster is behind `plane` by more than `margin`.
+    /// Whether any corner in a cluster is behind `plane` by more than `margin`.
     pub(super) fn is_behind(&self, number: usize, sites: &[Site], plane: &Plane, margin: f64) -> bool {
         let cluster = &self.clusters[number];
         if cluster.bounds.heights(plane)[0] >= -margin {
@@ -138,7 +138,7 @@ impl Tree {
     }
 }
 
-/// Moves those on one side of the middle of the longest axis to the front, and counts them.
+/// Moves the patches on one side of the middle of the longest axis to the front, and counts them.
 fn divide(order: &mut [usize], keys: &[[f64; 6]]) -> usize {
     let span = |axis: usize| {
         let along = order.iter().map(|n| keys[*n][axis]);
@@ -150,7 +150,7 @@ fn divide(order: &mut [usize], keys: &[[f64; 6]]) -> usize {
     let middle = 0.5 * (spans[axis][0] + spans[axis][1]);
     order.sort_by_key(|n| (keys[*n][axis] > middle, *n));
     match order.partition_point(|n| keys[*n][axis] <= middle) {
-        // All in one place.
+        // all at the same position
         count if count == order.len() => count / 2,
         count => count,
     }
@@ -160,7 +160,7 @@ fn divide(order: &mut [usize], keys: &[[f64; 6]]) -> usize {
 fn axes_along(site: &Site, up: Vec3) -> [Vec3; 3] {
     let edge = site.polygon.corners()[1] - site.polygon.corners()[0];
     let along = (edge - up * up.dot(&edge)).try_normalize(f64::MIN_POSITIVE).unwrap_or_else(|| {
-        // Any direction does.
+        // any direction will do
         up.cross(&up.map(|x| if x.abs() < 0.6 { 1.0 } else { 0.0 })).normalize()
     });
     [along, up.cross(&along), up]

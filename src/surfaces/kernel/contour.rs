@@ -1,9 +1,9 @@
-//! Form factors of two polygons that see each other wholly, as integrals round their edges.
+//! Form factors of two mutually visible polygons, as integrals around their edges.
 //!
-//! Stokes' theorem turns the two area integrals of eq. (2) into `A·F = (1/2π) ∮∮ ln r dl·dl'` (Sparrow 1963).
-//! Round one polygon the integral has a closed form, and where two edges are parallel so has the other. What
-//! is left is a Gauss rule of the order that the nearest singularity asks for, on intervals that shrink
-//! towards points where edges meet.
+//! Stokes' theorem converts the two area integrals of eq. (2) into `A·F = (1/2π) ∮∮ ln r dl·dl'` (Sparrow
+//! 1963). Around one polygon the integral has a closed form, and for parallel edges so does the other. The
+//! remaining one is computed by a Gauss rule of the order required by the nearest singularity, on intervals
+//! that shrink towards points where edges meet.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -12,11 +12,11 @@ use crate::geometry::Vec3;
 use crate::kernel::quadrature::Rule;
 use crate::surfaces::polygon::Polygon;
 
-/// Highest order of a rule; where the integrand asks for more the interval is halved.
+/// Highest order of a rule; if the integrand requires more, the interval is halved.
 const ORDER_MAX: usize = 16;
 /// Truncation error of the rules, relative to the integral along an edge.
 const TOLERANCE: f64 = 1e-13;
-/// Intervals shorter than this, relative to the edge, add nothing that counts.
+/// Intervals shorter than this, relative to the edge, are negligible.
 const SHORTEST: f64 = 1e-8;
 /// Sine of an angle below which edges count as parallel.
 const PARALLEL: f64 = 1e-10;
@@ -39,8 +39,8 @@ static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=ORDER_MAX).map(Rule::g
 /// ```
 #[must_use]
 pub fn exchange(a: &Polygon, b: &Polygon) -> f64 {
-    // ln r is known but for a constant, which a closed contour does not feel: in units of the distance it is
-    // small.
+    // ln r is arbitrary up to a constant, which cancels along a closed contour: in units of the distance it
+    // is small
     let unit = (a.corners()[0] - b.corners()[0]).norm().max(a.diameter()).max(b.diameter());
     let edges =
         |polygon: &Polygon| polygon.edges().map(|(from, to)| Edge::new(from, to, unit)).collect::<Vec<_>>();
@@ -72,13 +72,14 @@ impl Edge {
         if self.direction.cross(&other.direction).norm() < PARALLEL {
             return cos * self.with_parallel(other, cos.signum());
         }
-        // The longer edge in closed form: the shorter one needs fewer nodes.
+        // the longer edge in closed form: the shorter one needs fewer nodes
         let (outer, inner) = if self.length < other.length { (self, other) } else { (other, self) };
         let singularities = outer.singularities(inner);
         cos * outer.integrate(inner, &singularities, 0.0, outer.length)
     }
 
-    /// The same in closed form, the second antiderivative of `½ ln(h² + z²)` at the differences of the ends.
+    /// The same in closed form, by the second antiderivative of `½ ln(h² + z²)` at the differences of the
+    /// ends.
     fn with_parallel(&self, other: &Self, sign: f64) -> f64 {
         let apart = other.start - self.start;
         let (z, h) = (apart.dot(&self.direction), apart.cross(&self.direction).norm());
@@ -94,7 +95,7 @@ impl Edge {
         antiderivative(t + self.length, h) - antiderivative(t, h)
     }
 
-    /// Where, along this edge, the integral round `inner` is singular: at complex positions `re ± i·im`.
+    /// Complex positions `re ± i·im` along this edge at which the integral around `inner` is singular.
     fn singularities(&self, inner: &Self) -> [(f64, f64); 3] {
         let end = |distance: f64| {
             let apart = inner.start + distance * inner.direction - self.start;
@@ -103,7 +104,7 @@ impl Edge {
         [end(0.0), end(inner.length), self.crossing(inner).unwrap_or_else(|| end(0.0))]
     }
 
-    /// The point nearest to the line of `inner`, if what it is near to is on `inner` itself.
+    /// The point nearest to the line of `inner`, if the nearest point on that line is on `inner` itself.
     fn crossing(&self, inner: &Self) -> Option<(f64, f64)> {
         let normal = self.direction.cross(&inner.direction);
         let apart = (self.start - inner.start).cross(&inner.direction);
@@ -120,7 +121,7 @@ impl Edge {
         if order > ORDER_MAX as f64 && high - low > SHORTEST * self.length {
             let middle = 0.5 * (low + high);
             let near = singularities.iter().map(|(re, _)| *re).filter(|re| *re > low && *re < high);
-            // Halves, unless a singularity inside makes a better end.
+            // halved, unless a singularity inside is a better end
             let cut = near.min_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs())).unwrap_or(middle);
             let cut = if (cut - low).min(high - cut) < 1e-3 * (high - low) { middle } else { cut };
             return self.integrate(inner, singularities, low, cut)

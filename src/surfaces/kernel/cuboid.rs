@@ -1,18 +1,18 @@
-//! Boxes along any axes: what holds a cluster of patches.
+//! Oriented boxes that contain a cluster of patches.
 
 use crate::geometry::Vec3;
 
 /// A box.
 #[derive(Clone, Debug)]
 pub(super) struct Cuboid {
-    /// Three unit vectors at right angles.
+    /// Three orthogonal unit vectors.
     pub(super) axes: [Vec3; 3],
-    /// From where to where it reaches along each.
+    /// Its range along each axis.
     pub(super) spans: [[f64; 2]; 3],
 }
 
 impl Cuboid {
-    /// The box along `axes` round points.
+    /// The bounding box of points along `axes`.
     pub(super) fn round<'a>(axes: [Vec3; 3], points: impl Iterator<Item = &'a Vec3> + Clone) -> Self {
         let span = |axis: Vec3| {
             let places = points.clone().map(|point| point.dot(&axis));
@@ -37,12 +37,12 @@ impl Cuboid {
         self.halves().into_iter().fold(0.0, f64::max)
     }
 
-    /// A distance that no point of one box is nearer than to one of the other.
+    /// A lower bound on the distance between two boxes.
     pub(super) fn gap(&self, other: &Self) -> f64 {
         self.gap_to(&other.corners()).max(other.gap_to(&self.corners()))
     }
 
-    /// Distance to the box along these axes round points.
+    /// Distance to the bounding box of points along the same axes.
     fn gap_to(&self, points: &[Vec3]) -> f64 {
         let other = Self::round(self.axes, points.iter());
         let apart = |([low, high], [from, to]): ([f64; 2], [f64; 2])| (from - high).max(low - to).max(0.0);

@@ -1,4 +1,4 @@
-//! Direct light of any source on patches, shadows included.
+//! Direct light of any source on patches, including shadows.
 
 use std::f64::consts::PI;
 
@@ -12,20 +12,20 @@ use crate::geometry::{LightSource, Vec3};
 use crate::surfaces::Polygon;
 use crate::surfaces::shape::Shape;
 
-/// Mean irradiance of every patch, and its largest standard error, zero where there is none.
+/// Mean irradiance of every patch, and its largest standard error, zero if exact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectLight {
     /// One number per patch.
     pub irradiance: Vec<f64>,
-    /// Of the patch of which least is known.
+    /// For the least certain patch.
     pub standard_error: f64,
 }
 
 impl DirectLight {
-    /// What `source` gives to `patches` of `shape`, between which `kernel` says the exchange. A uniform sky
-    /// gives what the patches do not hide from each other, less the backs that they see, which are sampled;
-    /// other skies are sampled where more than a few flat parts hide them. A light of which nothing but its
-    /// irradiance is known gives nothing.
+    /// Irradiance of `patches` of `shape` by `source`, with their exchange in `kernel`. A uniform sky
+    /// contributes what the patches do not hide from each other, minus the visible backs, which are sampled;
+    /// other skies are sampled where more than a few flat parts hide them. A light of which only the
+    /// irradiance is known contributes nothing.
     ///
     /// # Source
     /// CIE S 011/E:2003: the overcast sky's irradiance of a horizontal plane is 7/9 of π times the radiance
@@ -57,8 +57,8 @@ impl DirectLight {
         }
     }
 
-    /// What the sun or a lamp gives to `patches`, exact but for lamps of some size, which are as exact as
-    /// patches are small; nothing if `source` is neither.
+    /// Irradiance of `patches` by the sun or a lamp, exact except for extended lamps, whose accuracy depends
+    /// on the size of the patches; zero if `source` is neither.
     #[must_use]
     pub fn of_lamp(source: &LightSource, shape: &Shape, patches: &[Patch]) -> Vec<f64> {
         let (unit, amount) = match source {
@@ -82,7 +82,7 @@ impl DirectLight {
         unit.into_iter().map(|light| amount * light).collect()
     }
 
-    /// Of a sky with a horizon: by quadrature, or else by rays.
+    /// For a sky with a horizon: by quadrature, or else by rays.
     fn of_sky(
         source: &LightSource,
         shape: &Shape,
@@ -103,7 +103,7 @@ impl DirectLight {
     }
 }
 
-/// Radiance times π of an overcast sky that gives a horizontal plane irradiance 1, by the sine of the
+/// Radiance times π of an overcast sky with unit irradiance on a horizontal plane, by the sine of the
 /// elevation.
 fn overcast(sin_elevation: f64) -> f64 {
     if sin_elevation > 0.0 { 9.0 / 7.0 * (1.0 + 2.0 * sin_elevation) / 3.0 } else { 0.0 }

@@ -1,4 +1,4 @@
-//! Form factors of two polygons that are far apart for their size, by Gauss rules on both.
+//! Form factors of two polygons that are far apart relative to their size, by Gauss rules on both.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -7,15 +7,15 @@ use crate::geometry::Vec3;
 use crate::kernel::quadrature::Rule;
 use crate::surfaces::polygon::Polygon;
 
-/// Beyond this order of Gauss rule the contour integral is the cheaper one.
+/// Beyond this order of Gauss rule the contour integral is cheaper.
 const ORDER_MAX: usize = 6;
-/// Truncation error, relative, where no more is allowed for.
+/// Default truncation error, relative.
 pub const TOLERANCE: f64 = 1e-10;
 
 static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=ORDER_MAX).map(Rule::gauss_legendre).collect());
 
-/// Area times form factor between triangles or quadrilaterals that see each other wholly, to a relative
-/// `tolerance`; none if they are too near.
+/// Area times form factor between mutually visible triangles or quadrilaterals, to a relative `tolerance`;
+/// none if they are too near.
 ///
 /// `a` and `b` lie in spheres of radii `radii` whose centres are `distance` apart.
 #[must_use]
@@ -37,7 +37,7 @@ pub fn exchange(a: &Polygon, b: &Polygon, radii: [f64; 2], distance: f64, tolera
     Some(sum / PI)
 }
 
-/// Gauss order for a polygon of this radius whose neighbour leaves this gap, if it is moderate (Trefethen,
+/// Gauss order for a polygon of this radius at this gap from its neighbour, if moderate (Trefethen,
 /// *Approximation Theory and Approximation Practice*, theorem 19.3).
 fn order(radius: f64, gap: f64, tolerance: f64) -> Option<usize> {
     if gap <= 0.0 {
@@ -47,7 +47,7 @@ fn order(radius: f64, gap: f64, tolerance: f64) -> Option<usize> {
     (order <= ORDER_MAX).then_some(order.max(1))
 }
 
-/// Points of a tensor Gauss rule on a triangle or quadrilateral, with their shares of its area.
+/// Points of a tensor Gauss rule on a triangle or quadrilateral, weighted by area.
 #[must_use]
 pub fn nodes(polygon: &Polygon, order: usize) -> Vec<(Vec3, f64)> {
     let rule = &RULES[order.clamp(1, ORDER_MAX) - 1];

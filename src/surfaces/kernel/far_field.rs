@@ -1,11 +1,11 @@
-//! The exchange between clusters that see each other from afar, without a matrix.
+//! The exchange between distant clusters that see each other, without a matrix.
 //!
-//! The kernel of eq. (2) is `(n·d)(−n'·d)/(π d⁴)`, with `d` from one point to the other: normals apart it is
-//! smooth for clusters that are far apart, and is taken at the nodes of a [`Grid`] in each. What leaves a
-//! cluster is gathered in one vector per node (its patches' light times their normals), carried to the nodes
-//! of others, and read there along the normals of their patches. Larger clusters gather from their halves,
-//! and halves read what arrives at the whole, so that nothing is kept but what leaves and enters the
-//! smallest.
+//! The kernel of eq. (2) is `(n·d)(−n'·d)/(π d⁴)`, with `d` from one point to the other: apart from the
+//! normals it is smooth for distant clusters, and is evaluated at the nodes of a [`Grid`] in each. The light
+//! leaving a cluster is gathered in one vector per node (its patches' light times their normals), propagated
+//! to the nodes of others, and projected there onto the normals of their patches. Larger clusters gather from
+//! their halves, and halves interpolate what arrives at the whole, so that weights are stored only for the
+//! smallest clusters.
 //!
 //! Source: Hackbusch and Börm, *H²-matrix approximation of integral operators by interpolation*, Appl. Numer.
 //! Math. 43 (2002), p. 129; Hackbusch, *Hierarchical Matrices: Algorithms and Analysis* (2015), chapter 8.
@@ -22,38 +22,38 @@ use super::grid::Grid;
 use super::site::Site;
 use crate::geometry::Vec3;
 
-/// Clusters that are far from others, each before its halves.
+/// Clusters that are distant from others, each before its halves.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FarField {
     parts: Vec<Part>,
-    /// Normal of the patch at every place.
+    /// Normal of the patch at every position.
     normals: Vec<Vec3>,
 }
 
 #[derive(Clone, Debug)]
 struct Part {
     grid: Grid,
-    /// The cluster of which this is a half, if that is far from anything.
+    /// The cluster of which this is a half, if that has distant partners.
     whole: Option<usize>,
-    /// What it sees from afar.
+    /// Its distant partners.
     partners: Vec<usize>,
-    /// What its nodes weigh on its patches, if it has no halves.
+    /// Weights of its nodes on its patches, if it has no halves.
     leaf: Option<Leaf>,
 }
 
 #[derive(Clone, Debug)]
 struct Leaf {
     patches: Range<usize>,
-    /// Integrals over every patch over the root of its area: node by patch.
+    /// Integrals over every patch divided by the square root of its area: node by patch.
     weights: DMatrix<f32>,
 }
 
-/// One vector per node of every part; none where there is nothing.
+/// One vector per node of every part; empty where there are none.
 type Vectors = Vec<Vec<Vec3>>;
 
 impl FarField {
-    /// The exchange of pairs of clusters in `tree`, right to about `tolerance` times what they would exchange
-    /// if they faced each other.
+    /// The exchange of pairs of clusters in `tree`, accurate to `tolerance` times the exchange that they
+    /// would have if they faced each other.
     pub(super) fn new(tree: &Tree, sites: &[Site], pairs: &[[usize; 2]], tolerance: f64) -> Self {
         let mut partners = vec![Vec::new(); tree.clusters.len()];
         for [a, b] in pairs {
@@ -80,7 +80,7 @@ impl FarField {
         Self { parts, normals: sites.iter().map(|site| site.plane.normal).collect() }
     }
 
-    /// Number of numbers kept.
+    /// Number of stored numbers.
     pub(super) fn len(&self) -> usize {
         self.parts.iter().filter_map(|part| part.leaf.as_ref()).map(|leaf| leaf.weights.len()).sum()
     }
@@ -97,7 +97,7 @@ impl FarField {
         }
     }
 
-    /// What leaves every cluster.
+    /// The light leaving every cluster.
     fn leaving(&self, x: &[f64]) -> Vectors {
         let of_leaf =
             |part: &Part| part.leaf.as_ref().map_or_else(Vec::new, |leaf| self.gathered(part, leaf, x));
@@ -129,7 +129,7 @@ impl FarField {
         sums
     }
 
-    /// What arrives at every cluster.
+    /// The light arriving at every cluster.
     fn arriving(&self, leaving: &Vectors) -> Vectors {
         let from_afar = |part: &Part| {
             let mut field = Vec::new();
@@ -158,7 +158,7 @@ impl FarField {
     }
 }
 
-/// Adds what vectors at some points make at others: `−d (d·v) / (π d⁴)`.
+/// Adds the fields of vectors at some points to others: `−d (d·v) / (π d⁴)`.
 fn carry(from: &[Vec3], vectors: &[Vec3], to: &[Vec3], fields: &mut [Vec3]) {
     for (point, field) in to.iter().zip(fields) {
         let mut sum = Vec3::zeros();
@@ -173,7 +173,7 @@ fn carry(from: &[Vec3], vectors: &[Vec3], to: &[Vec3], fields: &mut [Vec3]) {
 
 impl Leaf {
     fn new(grid: &Grid, sites: &[Site], patches: Range<usize>) -> Self {
-        // Polynomials along the axes are integrated exactly on parallelograms.
+        // polynomials along the axes are integrated exactly on parallelograms
         let order = grid.order().div_ceil(2);
         let of_patch = |site: &Site| {
             let mut sums = vec![0.0; grid.nodes.len()];

@@ -1,4 +1,4 @@
-//! Interpolation in a box: polynomials that are one at one of its nodes and zero at all others.
+//! Polynomial interpolation in a box: each basis function is one at one of its nodes and zero at all others.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use super::cuboid::Cuboid;
 use crate::geometry::Vec3;
 use crate::kernel::quadrature::Lagrange;
 
-/// Nothing that a grid is asked for comes from nearer than this, in halves of the largest extent of its box.
+/// Least distance of the sources of an interpolated function, in halves of the largest extent of its box.
 pub(super) const GAP: f64 = 1.5;
 
 /// Chebyshev nodes of a box, in rows along its axes.
@@ -26,8 +26,8 @@ struct Line {
     through: Lagrange,
 }
 
-/// How many nodes a box has along each axis, for functions that are singular no nearer than [`GAP`] and
-/// wanted to `tolerance`.
+/// Number of nodes of a box along each axis, for functions with no singularity nearer than [`GAP`], to
+/// `tolerance`.
 ///
 /// Trefethen, *Approximation Theory and Approximation Practice*, theorem 8.2.
 pub(super) fn orders(cuboid: &Cuboid, tolerance: f64) -> [usize; 3] {
@@ -48,7 +48,7 @@ impl Grid {
         Self { axes: cuboid.axes, lines, nodes }
     }
 
-    /// What every node weighs at a point.
+    /// Weights of the nodes at a point.
     pub(super) fn weights(&self, point: &Vec3) -> Vec<f64> {
         let [x, y, z] = [0, 1, 2].map(|axis| self.lines[axis].weights(point.dot(&self.axes[axis])));
         let rows = x.iter().flat_map(|x| y.iter().map(move |y| x * y));

@@ -1,9 +1,8 @@
-//! All pairs of patches, cluster by cluster: what one look at two clusters settles is not asked of their
-//! patches.
+//! All pairs of patches, cluster by cluster: whatever holds for two clusters is not tested for their patches.
 //!
-//! Clusters that show each other their backs, or that one wall parts, exchange nothing. Clusters that see
-//! each other wholly from afar exchange what [`FarField`](super::far_field::FarField) carries. Only what is
-//! left is found pair by pair.
+//! Clusters that face away from each other, or are separated by one wall, exchange nothing. Distant clusters
+//! that see each other completely exchange light through [`FarField`](super::far_field::FarField). Only the
+//! remaining ones are computed pair by pair.
 
 use rayon::prelude::*;
 
@@ -12,27 +11,27 @@ use super::block::Block;
 use super::cluster::{Cluster, Side, Tree};
 use super::grid::{GAP, orders};
 
-/// A pair of patches costs as much as this many pairs of nodes.
+/// Cost of a pair of patches, in pairs of nodes.
 const PAIR: usize = 8;
 
-/// What two clusters exchange.
+/// The exchange of two clusters.
 enum Part {
     Near(Block),
     /// Their numbers.
     Far([usize; 2]),
 }
 
-/// The clusters of all patches, between which the exchange is sought.
+/// The clusters of all patches, for computing their exchange.
 pub(super) struct Hierarchy<'a> {
     pub(super) assembly: &'a Assembly,
     pub(super) tree: &'a Tree,
-    /// Error of what is carried from afar.
+    /// Error of the far field.
     pub(super) truncation: f64,
 }
 
 impl Hierarchy<'_> {
-    /// The exchange of all pairs of patches: blocks of near ones, and the numbers of clusters that see each
-    /// other from afar.
+    /// The exchange of all pairs of patches: blocks of near ones, and the numbers of distant clusters that
+    /// see each other.
     pub(super) fn parts(&self) -> (Vec<Block>, Vec<[usize; 2]>) {
         let (mut blocks, mut pairs) = (Vec::new(), Vec::new());
         for part in self.between([0, 0], &self.assembly.casters.numbers()) {
@@ -44,7 +43,7 @@ impl Hierarchy<'_> {
         (blocks, pairs)
     }
 
-    /// The exchange of two clusters, of which one of `candidates` may hide something.
+    /// The exchange of two clusters, of which some of `candidates` may hide parts.
     fn between(&self, pair: [usize; 2], candidates: &[usize]) -> Vec<Part> {
         let (assembly, margin) = (self.assembly, self.assembly.casters.margin());
         let [a, b] = pair.map(|n| &self.tree.clusters[n]);
@@ -70,8 +69,8 @@ impl Hierarchy<'_> {
         parts.into_par_iter().flat_map(|pair| self.between(pair, &casters)).collect()
     }
 
-    /// Those of `candidates` that may hide some of one cluster from some of the other; none if one hides all
-    /// from all.
+    /// Those of `candidates` that may hide part of one cluster from part of the other; none if one hides
+    /// everything.
     fn casters(&self, pair: [usize; 2], candidates: &[usize]) -> Option<Vec<usize>> {
         let [a, b] = pair.map(|n| &self.tree.clusters[n]);
         let casters = &self.assembly.casters;
@@ -83,7 +82,7 @@ impl Hierarchy<'_> {
         Some(near.into_iter().filter(|n| is_behind(casters.plane(*n))).collect())
     }
 
-    /// Whether carrying from node to node is cheaper than all pairs of patches.
+    /// Whether propagation between nodes is cheaper than all pairs of patches.
     fn is_cheaper(&self, a: &Cluster, b: &Cluster) -> bool {
         let nodes = |cluster: &Cluster| orders(&cluster.cuboid, self.truncation).iter().product::<usize>();
         nodes(a) * nodes(b) <= PAIR * pairs(a, b)
@@ -96,13 +95,13 @@ fn pairs(a: &Cluster, b: &Cluster) -> usize {
     if a == b { a.len() * (a.len() - 1) / 2 } else { a.len() * b.len() }
 }
 
-/// Whether both are even, and far apart for their size.
+/// Whether both are even, and far apart relative to their size.
 fn is_smooth(a: &Cluster, b: &Cluster) -> bool {
     let reach = a.cuboid.reach().max(b.cuboid.reach());
     a.is_even && b.is_even && a.cuboid.gap(&b.cuboid) >= GAP * reach
 }
 
-/// The pairs of their halves, each once, or of the halves of the larger; none if there are no halves.
+/// The pairs of their halves, each once, or of the halves of the larger; empty if there are no halves.
 fn parts([n, m]: [usize; 2], [a, b]: [&Cluster; 2]) -> Vec<[usize; 2]> {
     match (a.halves, b.halves) {
         (Some([low, high]), _) if n == m => vec![[low, low], [low, high], [high, high]],
@@ -128,7 +127,8 @@ mod tests {
         Accordion { valley, creases, ridge_deg: 120.0, bow_deg: 0.0 }.shape().unwrap()
     }
 
-    /// The panels of a fold of three creases see each other past the ridge: wholly, in part and not at all.
+    /// The panels of a fold with three creases see each other past the ridge: completely, partly and not at
+    /// all.
     #[test]
     fn clusters_exchange_what_their_patches_do() {
         let (shape, tolerance) = (fold(3, 16), 1e-2);

@@ -1,4 +1,4 @@
-//! A surface in its light: what bounces start from, and what they go through.
+//! A surface in its light: the initial light and the exchange of the bounces.
 
 use super::SurfaceKernel;
 use super::direct::DirectLight;
@@ -21,11 +21,11 @@ pub struct LitSurface {
 }
 
 impl LitSurface {
-    /// A surface under these sources, divided as [`solve`](super::refinement::solve) did when it ended with
-    /// this many `unknowns`.
+    /// A surface under these sources, with the division on which [`solve`](super::refinement::solve) ended,
+    /// identified by its number of `unknowns`.
     ///
     /// # Errors
-    /// [`Error::Field`] if it never has that many; as [`SurfaceKernel::new`].
+    /// [`Error::Field`] if no division has that many; as [`SurfaceKernel::new`].
     pub fn again(shape: &Shape, sources: &[LightSource], unknowns: usize, tolerance: f64) -> Result<Self> {
         let patches = patches_again(shape, sources, unknowns).ok_or_else(|| {
             let problem =
@@ -35,7 +35,7 @@ impl LitSurface {
         Self::new(shape, sources, &patches, tolerance)
     }
 
-    /// A surface in `patches` under these sources.
+    /// A surface divided into `patches` under these sources.
     ///
     /// # Errors
     /// As [`SurfaceKernel::new`].
@@ -45,7 +45,7 @@ impl LitSurface {
         Ok(Self { kernel, lights })
     }
 
-    /// The exchange between functions on parts of several reflectances.
+    /// The exchange between functions on parts with several reflectances.
     ///
     /// # Errors
     /// As [`ReducedExchange::new`].

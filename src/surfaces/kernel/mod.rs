@@ -1,10 +1,10 @@
 //! The exchange of light between the facets of any surface, or between patches that divide them.
 //!
-//! A pair that nothing can stand between ([`casters`]) takes a formula ([`contour`], or [`far`] where it is
-//! right to ten digits); any other loses what its casters hide ([`partial`], by exact shadows, [`shadow`]).
-//! Pairs of one plane and pairs that show each other their backs exchange nothing. One number stands for both
-//! directions, so that reciprocity holds by construction. In large meshes clusters that see each other from
-//! afar exchange light without a number for every pair (`far_field`, `hierarchy`).
+//! An unobstructed pair ([`casters`]) is computed by a formula ([`contour`], or [`far`] where it is accurate
+//! to ten digits); any other loses what its casters hide ([`partial`], by exact shadows, [`shadow`]).
+//! Coplanar pairs and pairs that face away from each other exchange nothing. One number represents both
+//! directions, so that reciprocity holds by construction. In large meshes distant clusters that see each
+//! other exchange light without a number for every pair (`far_field`, `hierarchy`).
 
 pub mod arealight;
 mod assembly;
@@ -45,18 +45,18 @@ use super::shape::{FACETS_MAX, Shape};
 use crate::error::{Error, Result};
 use crate::kernel::skipped::Skipped;
 
-/// Groups of rows that are multiplied apart: their number is fixed, so that sums do not depend on the
+/// Groups of rows multiplied separately: their number is fixed, so that sums do not depend on the number of
 /// threads.
 const GROUPS: usize = 16;
-/// Meshes of at least this many patches exchange light by clusters; below, all pairs take a few seconds and
-/// are right to single precision.
+/// Meshes with at least this many patches exchange light by clusters; below, all pairs take a few seconds and
+/// are accurate to single precision.
 const CLUSTERED: usize = 3000;
-/// Error of what clusters exchange and of the rules for pairs that are far apart, relative to the tolerance,
-/// and the least that is worth while beside entries in single precision.
+/// Error of the exchange of clusters and of the rules for distant pairs, relative to the tolerance, and its
+/// lower limit, given entries in single precision.
 const AFAR: f64 = 0.01;
 const ROUNDING: f64 = 1e-7;
-/// More than this share of its light no patch hands on; the rest is rounding and the tolerance of partial
-/// shadows.
+/// Largest fraction of its light that a patch may pass on; the excess over 1 is rounding and the tolerance of
+/// partial shadows.
 const ALL: f64 = 1.001;
 
 /// Form factors between the patches of a surface.
@@ -64,11 +64,11 @@ const ALL: f64 = 1.001;
 pub struct SurfaceKernel {
     root_areas: Vec<f64>,
     facet_of: Vec<usize>,
-    /// The patch at every place: row and column of the blocks.
+    /// The patch at every position: row and column of the blocks.
     order: Vec<usize>,
     /// `√A_i·K_ij/√A_j` of pairs.
     blocks: Vec<Block>,
-    /// The same of clusters that see each other from afar.
+    /// The same for distant clusters that see each other.
     far_field: FarField,
     census: Census,
 }
@@ -77,12 +77,12 @@ impl SurfaceKernel {
     /// Form factors between `patches` of `shape`, all of them, in the order of its facets.
     ///
     /// # Arguments
-    /// - `tolerance`: error of a partly hidden pair's form factor, relative to what it would be unhidden.
-    ///   From 3000 patches on open pairs have an error too: row sums are off by less than a hundredth of it.
+    /// - `tolerance`: error of a partly hidden pair's form factor, relative to the unhidden one. From 3000
+    ///   patches on, unobstructed pairs have an error, too: row sums are off by less than a hundredth of it.
     ///
     /// # Errors
-    /// [`Error::FullExchange`] if their exchange fills more than a gigabyte; [`Error::Shape`] if the patches
-    /// are too many, or they hand on more light than they have: facets that cross.
+    /// [`Error::FullExchange`] if their exchange exceeds a gigabyte; [`Error::Shape`] if the patches are too
+    /// many, or pass on more light than they have because facets cross.
     ///
     /// # Source
     /// Deeb et al., eq. (10), averaged over both patches.
@@ -111,10 +111,10 @@ impl SurfaceKernel {
         Self::by_clusters(shape, patches, tolerance)
     }
 
-    /// The same pair by pair, however many patches there are.
+    /// The same pair by pair, for any number of patches.
     ///
     /// # Errors
-    /// [`Error::Shape`] if patches hand on more light than they have.
+    /// [`Error::Shape`] if patches pass on more light than they have.
     pub fn by_pairs(shape: &Shape, patches: &[Patch], tolerance: f64) -> Result<Self> {
         let sites = patches.iter().map(Site::new).collect();
         let assembly = Assembly::new(shape, sites, [tolerance, far::TOLERANCE]);
@@ -122,10 +122,10 @@ impl SurfaceKernel {
         Self::of(patches, (0..patches.len()).collect(), blocks, FarField::default(), &assembly).check()
     }
 
-    /// The same with clusters that exchange light from afar, however few patches there are.
+    /// The same with clusters that exchange light through the far field, for any number of patches.
     ///
     /// # Errors
-    /// [`Error::FullExchange`] if that fills more than a gigabyte; as [`SurfaceKernel::by_pairs`].
+    /// [`Error::FullExchange`] if that exceeds a gigabyte; as [`SurfaceKernel::by_pairs`].
     pub fn by_clusters(shape: &Shape, patches: &[Patch], tolerance: f64) -> Result<Self> {
         let truncation = (AFAR * tolerance).max(ROUNDING);
         let sites: Vec<Site> = patches.iter().map(Site::new).collect();
@@ -169,19 +169,19 @@ impl SurfaceKernel {
         Ok(self)
     }
 
-    /// How pairs of patches were dealt with.
+    /// Treatment of the pairs of patches.
     #[must_use]
     pub fn census(&self) -> Census {
         self.census
     }
 
-    /// How many numbers are kept: one per pair that sees each other, fewer for clusters that do so from afar.
+    /// Number of stored numbers: one per visible pair, fewer for distant clusters.
     #[must_use]
     pub fn entries(&self) -> usize {
         self.blocks.iter().map(|block| block.entries.len()).sum::<usize>() + self.far_field.len()
     }
 
-    /// Share of its light that each patch hands to others.
+    /// Fraction of its light that each patch sends to others.
     #[must_use]
     pub fn row_sums(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.unknowns()];
@@ -189,14 +189,14 @@ impl SurfaceKernel {
         sums.iter().zip(&self.root_areas).map(|(sum, root)| sum / root).collect()
     }
 
-    /// The same of every facet, over its patches.
+    /// The same for every facet, over its patches.
     #[must_use]
     pub fn facet_row_sums(&self) -> Vec<f64> {
         self.facet_means(&self.start(&self.row_sums()))
     }
 
-    /// One row of the matrix K of eq. (10) between the patches: the share of the light leaving patch `row`
-    /// that reaches each.
+    /// One row of the matrix K of eq. (10) between the patches: the fractions of the light leaving patch
+    /// `row` that reach each of them.
     #[must_use]
     pub fn matrix_row(&self, row: usize) -> Vec<f64> {
         let (mut unit, mut exchange) = (vec![0.0; self.unknowns()], vec![0.0; self.unknowns()]);
@@ -242,7 +242,7 @@ impl Exchange for SurfaceKernel {
 }
 
 impl Census {
-    /// The work that was not done.
+    /// The work that was skipped.
     #[must_use]
     pub fn skipped(&self) -> Vec<Skipped> {
         let skip = |what, count, why| Skipped { what, count, why };

@@ -1,23 +1,22 @@
-//! Form factors of two polygons that others hide from each other in part.
+//! Form factors of two polygons that are partly hidden from each other.
 //!
-//! From a point on one the visible part of the other is exact (`shadow`); what is left is a function with
-//! kinks, integrated on quarters of the polygon until they agree with the whole. The visible share multiplies
-//! the exact unhidden exchange, so that nothing is lost where nothing is hidden and nothing is left where all
-//! is.
+//! From a point on one polygon the visible part of the other is exact (`shadow`); the remaining integrand has
+//! kinks, and is integrated on quarters of the polygon until they agree with the whole. The visible fraction
+//! multiplies the exact unhidden exchange, so that the result is exact where nothing or everything is hidden.
 
 use super::far::nodes;
 use super::shadow::{Eye, point_factor, visible};
 use crate::geometry::Vec3;
 use crate::surfaces::polygon::Polygon;
 
-/// How often a polygon is quartered.
+/// Most levels of quartering.
 const DEPTH_MAX: u32 = 4;
-/// Error of a rule on quarters, relative to its difference from that on the whole, of a function with kinks.
+/// Error of a rule on quarters, relative to its difference from that on the whole, for a function with kinks.
 const GAIN: f64 = 0.25;
 /// Order of the rule on each part.
 const ORDER: usize = 2;
 
-/// Light that arrives, and that would if nothing stood between.
+/// Light that arrives, and light that would arrive unobstructed.
 #[derive(Clone, Copy, Default)]
 struct Light {
     seen: f64,
@@ -34,8 +33,8 @@ impl Light {
     }
 }
 
-/// Share in [0, 1] of the unhidden exchange between `a` and `b`, each wholly in front of the other, that
-/// `casters` between them let pass; wrong by about `tolerance`.
+/// Fraction in [0, 1] of the unhidden exchange between `a` and `b`, each entirely in front of the other, that
+/// passes the `casters` between them; accurate to approximately `tolerance`.
 #[must_use]
 pub fn visible_share(a: &Polygon, b: &Polygon, casters: &[Polygon], tolerance: f64) -> f64 {
     let (from, to) = if a.area() <= b.area() { (a, b) } else { (b, a) };
@@ -70,7 +69,7 @@ impl Pair<'_> {
         })
     }
 
-    /// The light of a part whose rule gave `coarse`, on quarters until it changes by no more than
+    /// The light of a part whose rule returned `coarse`, on quarters until it changes by no more than
     /// `tolerance`.
     fn refine(&self, part: &Polygon, coarse: Light, tolerance: f64, depth: u32) -> Light {
         let quarters: Vec<(Polygon, Light)> =
@@ -81,14 +80,14 @@ impl Pair<'_> {
         if settled || depth == 0 {
             return fine;
         }
-        // Errors of the quarters have either sign: they add up as their root of squares.
+        // errors of the quarters have either sign, so they add in quadrature
         let refined =
             quarters.iter().map(|(quarter, light)| self.refine(quarter, *light, 0.5 * tolerance, depth - 1));
         refined.fold(Light::default(), Light::plus)
     }
 }
 
-/// A polygon as triangles or quadrilaterals.
+/// A polygon divided into triangles or quadrilaterals.
 fn fan(polygon: &Polygon) -> Vec<Polygon> {
     let corners = polygon.corners();
     if corners.len() <= 4 {
@@ -101,7 +100,7 @@ fn fan(polygon: &Polygon) -> Vec<Polygon> {
         .collect()
 }
 
-/// The four parts between the middles of the sides; of a triangle two are quadrilaterals and two triangles.
+/// The four parts between the middles of the sides; for a triangle, two quadrilaterals and two triangles.
 fn quarters(polygon: &Polygon) -> Vec<Polygon> {
     let corner = |u: f64, v: f64| polygon.at(u, v).0;
     let quarter = |u: f64, v: f64| {

@@ -1,9 +1,10 @@
 //! The patches into which facets are divided: even cells, more and narrower ones towards edges where facets
 //! meet in a valley.
 //!
-//! Beside a valley irradiance goes with a power of the distance, often below one. Cells as wide as the root
-//! of their distance, so that their ends are squares, make the error of facet means fall with the square of
-//! their number there as elsewhere; cells of equal ratios do not.
+//! Near a valley irradiance varies as a power of the distance, often below one. With cell widths proportional
+//! to the square root of the distance, so that cell boundaries are at squares, the error of facet means
+//! decreases with the square of the number of cells, as it does elsewhere; with widths in a geometric
+//! progression it does not.
 
 use std::collections::HashMap;
 
@@ -11,25 +12,25 @@ use crate::geometry::Vec3;
 use crate::surfaces::polygon::Polygon;
 use crate::surfaces::shape::Shape;
 
-/// Corners nearer to each other than this share of the surface's size are one.
+/// Corners nearer to each other than this fraction of the surface's size are equal.
 const SAME: f64 = 1e-7;
 
 /// A part of a facet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
-    /// Where it is.
+    /// Its position.
     pub polygon: Polygon,
-    /// The facet that it lies in.
+    /// Its facet.
     pub facet: usize,
 }
 
-/// How finely facets are divided.
+/// Fineness of the division of facets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Division {
-    /// Cells along each side of a quadrilateral; a triangle is three quadrilaterals unless it is not divided
-    /// at all.
+    /// Cells along each side of a quadrilateral; a triangle becomes three quadrilaterals unless it is not
+    /// divided.
     pub cells: usize,
-    /// Whether there are twice as many towards a valley, narrower the nearer they are.
+    /// Whether there are twice as many, and progressively narrower ones, towards a valley.
     pub graded: bool,
 }
 
@@ -56,7 +57,7 @@ pub fn patches(shape: &Shape, division: Division) -> Vec<Patch> {
     patches_by(shape, |_| division)
 }
 
-/// The same with every facet divided in its own way.
+/// The same with an individual division of each facet.
 #[must_use]
 pub fn patches_by(shape: &Shape, division: impl Fn(usize) -> Division) -> Vec<Patch> {
     let valleys = Valleys::new(shape);
@@ -73,7 +74,7 @@ pub fn patches_by(shape: &Shape, division: impl Fn(usize) -> Division) -> Vec<Pa
 /// Edges at which facets face each other.
 struct Valleys {
     unit: f64,
-    /// Facets beside an edge, by its rounded ends.
+    /// Facets adjacent to an edge, by its rounded ends.
     along_edge: HashMap<[[i64; 3]; 2], Vec<usize>>,
     /// Centroid and normal of every facet.
     sights: Vec<(Vec3, Vec3)>,
@@ -99,7 +100,7 @@ impl Valleys {
         ends
     }
 
-    /// Whether an edge of a facet is one at which another faces it.
+    /// Whether another facet faces this one at an edge.
     fn is_valley(&self, facet: usize, from: &Vec3, to: &Vec3) -> bool {
         let (centroid, normal) = self.sights[facet];
         let faces = |other: &usize| {
@@ -128,7 +129,7 @@ impl Valleys {
     }
 }
 
-/// A quadrilateral as cells, narrower beside those of its sides that are valleys.
+/// A quadrilateral divided into cells, narrower next to those of its sides that are valleys.
 fn cells(quad: &Polygon, [low_v, high_u, high_v, low_u]: [bool; 4], division: Division) -> Vec<Polygon> {
     let (us, vs) = (cuts(division, low_u, high_u), cuts(division, low_v, high_v));
     let mut out = Vec::with_capacity(us.len() * vs.len());
@@ -146,7 +147,7 @@ fn cells(quad: &Polygon, [low_v, high_u, high_v, low_u]: [bool; 4], division: Di
     out
 }
 
-/// Where cells begin and end, from 0 to 1, on a side of which either end may be at a valley.
+/// Cell boundaries, from 0 to 1, along a side with possible valleys at either end.
 fn cuts(Division { cells, graded }: Division, low: bool, high: bool) -> Vec<f64> {
     let (low, high) = (graded && low, graded && high);
     let count = cells << (u32::from(low) + u32::from(high));

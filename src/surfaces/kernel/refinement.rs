@@ -1,4 +1,4 @@
-//! The bounces on any surface, on patches that are divided until the facet means are right.
+//! The bounces on any surface, on patches that are refined until the facet means are accurate.
 
 use super::SurfaceKernel;
 use super::direct::DirectLight;
@@ -9,54 +9,52 @@ use crate::kernel::mesh::{Accuracy, KernelSource, Mesh};
 use crate::surfaces::shape::{FACETS_MAX, Shape};
 use crate::surfaces::{Exchange, SurfaceResponse};
 
-/// Cells along a side in ever finer meshes.
+/// Cells along a side in successively finer meshes.
 const LADDER: [usize; 6] = [1, 2, 4, 8, 16, 32];
-/// How many times as many cells a side has on a facet in which a shadow ends.
+/// Factor of the number of cells along a side of a facet in which a shadow ends.
 const SHADOW: usize = 2;
-/// Direct light on a facet's patches that differs by more than this, relative to the brightest, is that of a
-/// shadow's end.
+/// A shadow ends in a facet if direct light on its patches differs by more than this, relative to the
+/// brightest.
 const UNEVEN: f64 = 0.01;
-/// Most cells along a side that anybody asks for: of one facet they are all the patches that there may be.
+/// Most cells along a side that can be requested: for a single facet they make the largest number of patches.
 const CELLS_MAX: usize = 316;
-/// Most patches of the first mesh, and of others but for one that should reach the tolerance.
+/// Most patches of the first mesh, and of others except one expected to reach the tolerance.
 const FIRST_MAX: usize = 8000;
 const PATCHES_MAX: usize = 40_000;
-/// Most pairs of patches that may hide parts of each other, which take most of the time where there are any:
-/// half a minute or so.
+/// Most pairs of patches that may partly hide each other, which dominate the time: half a minute or so.
 const HIDDEN_MAX: f64 = 2e6;
-/// What the difference between two meshes falls to in the next finer one. Cells being halved it should be a
-/// quarter; on coarse meshes, and where a shadow ends, it falls as far once and less the next time.
+/// Ratio of successive differences between meshes. With cells halved it should be a quarter; on coarse
+/// meshes, and where a shadow ends, it may be as small once and larger the next time.
 const FALL: f64 = 0.45;
-/// What it falls to where only two meshes tell, and where it did not fall at all.
+/// The ratio assumed after only two meshes, and if the difference did not decrease.
 const FIRST_FALL: f64 = 0.6;
 const LEAST_FALL: f64 = 0.75;
 /// Reflectances at which two meshes are compared.
 const PROBES: [f64; 2] = [0.5, 0.9];
-/// Facets that are darker than this share of the mean are compared with it instead of with themselves.
+/// Facets darker than this fraction of the mean are compared relative to it instead of to themselves.
 const DARK: f64 = 0.1;
 
-/// What the bounces make of every source.
+/// The solution of the bounces for every source.
 pub struct Solved {
     /// Poles and residues per source.
     pub responses: Vec<SurfaceResponse>,
-    /// What they are worth.
+    /// Their accuracy.
     pub accuracy: Accuracy,
     /// The form factors between the patches of the last mesh.
     pub kernel: SurfaceKernel,
-    /// Largest standard error of direct light that is sampled, 0 if none is.
+    /// Largest standard error of sampled direct light, 0 if none is sampled.
     pub direct_error: f64,
 }
 
 /// Solves the bounces on `shape` under each of `sources` for every reflectance, on `mesh`.
 ///
-/// [`Mesh::Auto`] divides facets until no facet mean should be further off than `tolerance`, relative to
-/// itself or, in the dark, to a tenth of the mean, at reflectances up to 0.9; it stops earlier, and the
-/// accuracy says so, at 40 000 patches or two million pairs of patches that are partly hidden from each
-/// other.
+/// [`Mesh::Auto`] refines facets until the expected error of every facet mean is at most `tolerance`,
+/// relative to itself or, in the dark, to a tenth of the mean, at reflectances up to 0.9; it stops earlier,
+/// as the accuracy shows, at 40 000 patches or two million pairs of partly hidden patches.
 ///
 /// # Errors
 /// As [`SurfaceKernel::new`] and [`SurfaceResponse::solve`]; [`Error::Usage`] for a mesh of rows and columns,
-/// which a shape does not have.
+/// which shapes do not have.
 ///
 /// # Example
 /// ```
@@ -86,7 +84,7 @@ pub fn solve(shape: &Shape, sources: &[LightSource], mesh: Mesh, tolerance: f64)
     }
 }
 
-/// The patches of a mesh on which [`solve`] ends with this many `unknowns`; none if there is no such mesh.
+/// The patches of the mesh on which [`solve`] ended with this many `unknowns`; none if there is no such mesh.
 #[must_use]
 pub fn patches_again(shape: &Shape, sources: &[LightSource], unknowns: usize) -> Option<Vec<Patch>> {
     let scene = Scene { shape, sources, tolerance: 0.0 };
@@ -124,7 +122,7 @@ impl Scene<'_> {
             }
             let finer = match self.on(&patches) {
                 Ok(finer) => finer,
-                // what does not fit leaves the solution that did
+                // if this does not fit into memory, the last solution remains
                 Err(Error::Memory { .. } | Error::FullExchange { .. }) => break,
                 Err(error) => return Err(error),
             };
@@ -139,13 +137,13 @@ impl Scene<'_> {
         Ok(solved)
     }
 
-    /// Finer patches where shadows end.
+    /// Patches, finer where shadows end.
     fn divided(&self, cells: usize, uneven: &[bool]) -> Vec<Patch> {
         let cells = |facet: usize| if uneven[facet] { SHADOW * cells } else { cells };
         patches_by(self.shape, |facet| Division { cells: cells(facet), graded: true })
     }
 
-    /// Facets in which a shadow ends: parts of them get unlike light from a source other than the sky.
+    /// Facets in which a shadow ends: parts of them receive different light from a source other than the sky.
     fn uneven(&self) -> Vec<bool> {
         let patches = patches(self.shape, Division { cells: 2, graded: false });
         let mut uneven = vec![false; self.shape.len()];
@@ -162,7 +160,7 @@ impl Scene<'_> {
         uneven
     }
 
-    /// The solution on given patches.
+    /// The solution on these patches.
     fn on(&self, patches: &[Patch]) -> Result<Solved> {
         let kernel = SurfaceKernel::new(self.shape, patches, self.tolerance)?;
         let (mut responses, mut residual, mut direct_error) = (Vec::new(), 0.0_f64, 0.0_f64);
@@ -180,8 +178,8 @@ impl Scene<'_> {
     }
 }
 
-/// What all finer meshes together would change, after the `last` difference between two and the one `before`
-/// it.
+/// Total change by all finer meshes, extrapolated from the `last` difference between two meshes and the one
+/// `before` it.
 fn left(before: Option<f64>, last: f64) -> f64 {
     let fall = before.map_or(FIRST_FALL, |before| (last / before).clamp(FALL, LEAST_FALL));
     last * fall / (1.0 - fall)

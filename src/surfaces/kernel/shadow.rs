@@ -1,9 +1,9 @@
-//! What is left of a polygon that other polygons hide from an eye: exact, by cutting their shadows out.
+//! The part of a polygon that other polygons do not hide from an eye: exact, by cutting out their shadows.
 //!
-//! A polygon between the eye and the target hides the target's part inside the pyramid over it (a prism if
-//! the eye is a direction). What is outside one of its sides stays, in convex pieces, so that grazing light
-//! is a matter of areas: an edge exactly on the line of sight hides nothing or leaves nothing, and never
-//! flips a pair from dark to bright.
+//! A polygon between the eye and the target hides the target's part inside the pyramid through its outline (a
+//! prism if the eye is a direction). The parts outside of its sides remain, as convex pieces, so that grazing
+//! light varies continuously with areas: an edge exactly on the line of sight hides nothing or leaves
+//! nothing, and never switches a pair from dark to bright.
 
 use std::f64::consts::PI;
 
@@ -12,10 +12,10 @@ use smallvec::SmallVec;
 use crate::geometry::Vec3;
 use crate::surfaces::polygon::{Plane, Polygon, edges};
 
-/// Pieces smaller than this share of the target are dropped.
+/// Pieces smaller than this, relative to the target, are dropped.
 const CRUMB: f64 = 1e-14;
 
-/// From where a target is seen.
+/// The viewpoint or direction from which a target is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Eye {
     /// A point.
@@ -35,11 +35,10 @@ impl Eye {
     }
 }
 
-/// What is left of `target` when polygons that cast shadows stand before it, all of them in front of its
-/// plane.
+/// The part of `target` that remains visible past polygons that cast shadows, all in front of its plane.
 ///
 /// # Returns
-/// Convex pieces; none where all is hidden.
+/// Convex pieces; empty if everything is hidden.
 ///
 /// # Example
 /// ```
@@ -70,7 +69,7 @@ pub fn visible(target: &Polygon, casters: &[Polygon], eye: Eye) -> Vec<Polygon> 
     pieces
 }
 
-/// Planes that bound the shadow, their fronts inside; none for a polygon that is seen edge-on.
+/// Planes that bound the shadow, facing inwards; none for a polygon seen edge-on.
 fn sides(caster: &[Vec3], eye: Eye) -> Option<SmallVec<[Plane; 6]>> {
     let middle = caster.iter().sum::<Vec3>() / caster.len() as f64;
     let inside = |(from, to): (Vec3, Vec3)| {
@@ -81,7 +80,7 @@ fn sides(caster: &[Vec3], eye: Eye) -> Option<SmallVec<[Plane; 6]>> {
     planes.iter().any(|plane| plane.height(&middle) > 0.0).then_some(planes)
 }
 
-/// Adds to `left` the parts of `piece` outside the planes.
+/// Adds the parts of `piece` outside the planes to `left`.
 fn cut(piece: Polygon, planes: &[Plane], crumb: f64, left: &mut Vec<Polygon>) {
     let outside = |plane: &Plane| piece.corners().iter().all(|corner| plane.height(corner) <= 0.0);
     if planes.iter().any(outside) {
@@ -97,8 +96,8 @@ fn cut(piece: Polygon, planes: &[Plane], crumb: f64, left: &mut Vec<Polygon>) {
     }
 }
 
-/// Share of the light leaving a Lambertian point in the direction of `normal` that lands on `target`, wholly
-/// above its horizon.
+/// Fraction of the light leaving a Lambertian point with this `normal` that lands on `target`, entirely above
+/// its horizon.
 ///
 /// # Source
 /// Lambert, *Photometria* (1760).

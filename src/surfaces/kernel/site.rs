@@ -1,10 +1,10 @@
-//! Patches with what their form factors ask for.
+//! Patches with the data needed for their form factors.
 
 use super::patches::Patch;
 use crate::geometry::Vec3;
 use crate::surfaces::polygon::{Plane, Polygon};
 
-/// A patch with what is asked of it for every pair.
+/// A patch with the data needed for every pair.
 pub(super) struct Site {
     pub(super) polygon: Polygon,
     pub(super) plane: Plane,

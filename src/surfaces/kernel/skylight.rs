@@ -1,4 +1,4 @@
-//! Light of the sky on patches: from directions drawn for every patch, the more the brighter they light it.
+//! Skylight on patches, from directions sampled for every patch in proportion to their effect.
 
 use std::f64::consts::TAU;
 
@@ -12,20 +12,20 @@ use crate::geometry::Vec3;
 use crate::surfaces::polygon::{Polygon, edges};
 use crate::surfaces::shape::Shape;
 
-/// Sets of rays from a patch, each a shift of the same even one: how much they differ says how far off their
-/// mean is.
+/// Sets of rays from a patch, each a shift of the same quasirandom one: their scatter determines the error of
+/// their mean.
 const SETS: usize = 16;
-/// Rays of a set.
+/// Rays per set.
 const RAYS: usize = 512;
-/// Steps of the even set along its four axes: reciprocal powers of the root of x⁵ = x + 1.
+/// Steps of the quasirandom set along its four axes: reciprocal powers of the root of x⁵ = x + 1.
 const STEPS: [f64; 4] =
     [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_037_820_3, 0.538_597_257_223_610_7];
 
-/// Mean irradiance of every patch under a sky of this `radiance` times π by direction, seen past all facets,
-/// and the largest standard error among them.
+/// Mean irradiance of every patch under a sky with this `radiance` times π by direction, past all facets, and
+/// the largest standard error among them.
 ///
 /// # Source
-/// Roberts, *The Unreasonable Effectiveness of Quasirandom Sequences* (2018), for the even set; shifts as of
+/// Roberts, *The Unreasonable Effectiveness of Quasirandom Sequences* (2018), for the set; shifts after
 /// Cranley and Patterson, *SIAM J. Numer. Anal.* 13 (1976), p. 904.
 ///
 /// # Example
@@ -50,8 +50,8 @@ pub fn skylight(shape: &Shape, patches: &[Patch], radiance: impl Fn(&Vec3) -> f6
     })
 }
 
-/// Share of every patch's view that the backs of facets fill, and the largest standard error among them;
-/// exactly zero where no back is seen.
+/// Fraction of every patch's view that is filled by the backs of facets, and the largest standard error among
+/// them; exactly zero if no back is seen.
 #[must_use]
 pub fn backs(shape: &Shape, patches: &[Patch]) -> (Vec<f64>, f64) {
     means(shape, patches, |screens, point, towards| {
@@ -59,7 +59,7 @@ pub fn backs(shape: &Shape, patches: &[Patch]) -> (Vec<f64>, f64) {
             let facing = screens.iter().filter(|screen| (screen.normal.dot(towards) > 0.0) == is_back);
             facing.filter_map(|screen| screen.distance(point, towards)).fold(f64::INFINITY, f64::min)
         };
-        // Facets that reflect on both sides have a front in the place of every back.
+        // facets that reflect on both sides have a front in place of every back
         if nearest(true) < (1.0 - 1e-9) * nearest(false) { 1.0 } else { 0.0 }
     })
 }
@@ -90,7 +90,7 @@ fn shift(random: &mut ChaCha8Rng) -> [f64; 4] {
     [(); 4].map(|()| f64::from(random.next_u32()) / f64::from(u32::MAX))
 }
 
-/// Mean over rays from points all over a patch, in directions with the cosine law.
+/// Mean over rays from points all over a patch, in cosine-distributed directions.
 fn mean_of_set(patch: &Polygon, value: &impl Fn(&Vec3, &Vec3) -> f64, shift: [f64; 4]) -> f64 {
     let across = patch.edges().next().map_or(Vec3::x(), |(from, to)| (to - from).normalize());
     let frame = [across, patch.normal().cross(&across), patch.normal()];
@@ -106,11 +106,11 @@ fn mean_of_set(patch: &Polygon, value: &impl Fn(&Vec3, &Vec3) -> f64, shift: [f6
     (0..RAYS).map(ray).sum::<f64>() / RAYS as f64
 }
 
-/// A facet that may stand before the sky.
+/// A facet that may hide the sky.
 struct Screen {
     normal: Vec3,
     offset: f64,
-    /// Normals in its plane, inwards from every side, and their offsets.
+    /// Inward normals of its sides, in its plane, and their offsets.
     sides: Vec<(Vec3, f64)>,
 }
 
@@ -124,7 +124,7 @@ impl Screen {
         Self { normal, offset: plane.offset, sides: edges(polygon.corners()).map(side).collect() }
     }
 
-    /// How far from a point it is in a direction, if it is there.
+    /// Distance from a point in a direction, if the ray meets it.
     fn distance(&self, from: &Vec3, towards: &Vec3) -> Option<f64> {
         let distance = (self.offset - self.normal.dot(from)) / self.normal.dot(towards);
         if !(distance > 0.0 && distance.is_finite()) {

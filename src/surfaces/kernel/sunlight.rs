@@ -1,4 +1,4 @@
-//! Direct light on patches, shadows included.
+//! Direct light on patches, including shadows.
 
 use std::f64::consts::PI;
 
@@ -12,10 +12,10 @@ use crate::surfaces::polygon::{Polygon, edges};
 use crate::surfaces::shape::Shape;
 
 /// Mean irradiance of every patch in parallel light that gives 1 on a plane facing it: the cosine of its
-/// incidence times the share of the patch that no facet shades, exact.
+/// incidence times the unshaded fraction of the patch, exact.
 ///
 /// # Arguments
-/// - `towards`: direction to the light, of any length.
+/// - `towards`: direction towards the light, of any length.
 ///
 /// # Example
 /// ```
@@ -39,7 +39,7 @@ pub fn sunlight(shape: &Shape, patches: &[Patch], towards: &Vec3) -> Vec<f64> {
 }
 
 /// Mean irradiance of every patch in the light of a point source that gives 1 on a plane facing it at
-/// distance 1: the solid angle of what it sees of the patch, over the patch's area, exact.
+/// distance 1: the solid angle of the lit part of the patch, divided by the patch's area, exact.
 #[must_use]
 pub fn lamplight(shape: &Shape, patches: &[Patch], lamp: &Vec3) -> Vec<f64> {
     let lit = |patch: &Polygon, lit: &[Polygon]| {
@@ -48,7 +48,7 @@ pub fn lamplight(shape: &Shape, patches: &[Patch], lamp: &Vec3) -> Vec<f64> {
     light(shape, patches, Eye::Point(*lamp), lit)
 }
 
-/// `irradiance` of every patch that faces the light and the pieces of it that are lit.
+/// `irradiance` is computed from each patch that faces the light, and its lit pieces.
 fn light(
     shape: &Shape,
     patches: &[Patch],
@@ -68,7 +68,7 @@ fn light(
         }
         let before = match eye {
             Eye::Direction(_) => casters.in_front_of(&plane),
-            // What is further from the plane than the lamp would shade what lies behind the lamp.
+            // parts further from the plane than the lamp would shade what is behind the lamp
             Eye::Point(lamp) => {
                 let low = |part: Polygon| part.in_front_of(&plane.raised(height).reversed());
                 casters

@@ -1,12 +1,12 @@
-//! A symmetric matrix most of whose rows are empty in long stretches.
+//! A symmetric matrix with long runs of zeros in most rows.
 
 use std::ops::Range;
 
-/// The entries right of the diagonal, in runs of neighbours that are not zero, in single precision: 6e-8 of
-/// an entry is below what any mesh is worth, and half the memory is twice the facets.
+/// The entries right of the diagonal, in runs of adjacent non-zero ones, in single precision: 6e-8 of an
+/// entry is below the accuracy of any mesh, and half the memory allows twice the entries.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rows {
-    /// Row and column at which each run begins, and where its entries are.
+    /// First row and column of each run, and the range of its entries.
     runs: Vec<Run>,
     values: Vec<f32>,
 }
@@ -19,7 +19,7 @@ struct Run {
 }
 
 impl Rows {
-    /// Adds a row from its column `start` on.
+    /// Adds a row, starting at column `start`.
     pub fn push(&mut self, row: usize, start: usize, entries: &[f64]) {
         let mut column = start;
         for run in entries.chunk_by(|a, b| (*a == 0.0) == (*b == 0.0)) {
@@ -32,7 +32,7 @@ impl Rows {
         }
     }
 
-    /// Number of entries kept.
+    /// Number of stored entries.
     #[must_use]
     pub fn len(&self) -> usize {
         self.values.len()
@@ -49,7 +49,7 @@ impl Rows {
         self.runs.iter().map(|run| (run.row, run.start, &self.values[run.values.clone()]))
     }
 
-    /// Adds a row of the matrix, as far as these rows or the columns that mirror them have it, to `out`.
+    /// Adds the entries of a row of the matrix, stored here directly or as mirrored columns, to `out`.
     pub fn add_row(&self, row: usize, out: &mut [f64]) {
         for (own, start, entries) in self.runs() {
             if own == row {
@@ -60,7 +60,7 @@ impl Rows {
         }
     }
 
-    /// Adds the product of these rows, and of the columns that mirror them, with `x` to `out`.
+    /// Adds the product of these rows, and of their mirrored columns, with `x` to `out`.
     pub fn add_product(&self, x: &[f64], out: &mut [f64]) {
         for (row, start, entries) in self.runs() {
             let (mut sum, own) = (0.0, x[row]);

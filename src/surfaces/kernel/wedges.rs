@@ -1,8 +1,8 @@
-//! Light of a sky with a horizon on patches that few facets hide it from, by quadrature.
+//! Light of a sky with a horizon on patches from which only a few facets hide it, by quadrature.
 //!
-//! About an axis in the patch's plane, half-planes cut the sky in half-circles, on each of which the horizon
-//! and every facet hide an arc. The rules begin anew where a corner of a facet comes into view, so that what
-//! they add up is smooth.
+//! Half-planes through an axis in the patch's plane divide the sky into semicircles, on each of which the
+//! horizon and every facet hide an arc. The quadrature rules restart wherever a corner of a facet comes into
+//! view, so that their integrands are smooth.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -16,18 +16,18 @@ use crate::kernel::quadrature::Rule;
 use crate::surfaces::polygon::{Polygon, edges};
 use crate::surfaces::shape::Shape;
 
-/// Most flat parts of a surface between which the sky is seen: with more, rays tell it sooner.
+/// Most flat parts of a surface between which the sky is seen: with more, rays are faster.
 const FEW: usize = 8;
-/// Points along each side of a patch, on a half-circle between what hides it, and of half-circles between
+/// Points along each side of a patch, on a semicircle between obstructions, and of semicircles between
 /// corners.
 const POINTS: usize = 2;
 const ON_ARC: usize = 16;
 const ARCS: usize = 12;
-/// A zenith that is this little along the axis has its horizon along it.
+/// A zenith with a smaller component than this along the axis has its horizon along it.
 const ALONG: f64 = 1e-9;
 
-/// Mean irradiance of every patch under a sky of this `radiance` times π by direction, dark below the horizon
-/// of `zenith`, seen past all facets; none if these are too many.
+/// Mean irradiance of every patch under a sky with this `radiance` times π by direction, dark below the
+/// horizon of `zenith`, past all facets; none if there are too many.
 ///
 /// # Example
 /// ```
@@ -68,12 +68,12 @@ pub fn skylight(
     Some(patches.par_iter().map(on).collect())
 }
 
-/// A point of a patch, and what stands before it.
+/// A point on a patch, and the facets in front of it.
 struct Place<'a> {
     point: Vec3,
     normal: Vec3,
     axis: Vec3,
-    /// Square to both.
+    /// Perpendicular to both.
     aside: Vec3,
     before: &'a [Polygon],
 }
@@ -81,14 +81,15 @@ struct Place<'a> {
 impl<'a> Place<'a> {
     fn new(point: Vec3, patch: &Polygon, before: &'a [Polygon]) -> Self {
         let normal = patch.normal();
-        // two corners of a patch may be one
+        // two corners of a patch may coincide
         let mut sides = patch.edges().map(|(from, to)| to - from);
         let side = sides.find(|side| side.norm() > 0.0);
         let axis = side.map_or_else(Vector3::y, |side| side.normalize());
         Self { point, normal, axis, aside: axis.cross(&normal), before }
     }
 
-    /// Irradiance: over the angles of half-planes with the patch's plane, and over half-circles.
+    /// Irradiance, integrated over the angles between half-planes and the patch's plane, and over
+    /// semicircles.
     fn irradiance(&self, zenith: &Vec3, radiance: &impl Fn(&Vec3) -> f64, [arcs, on_arc]: [&Rule; 2]) -> f64 {
         let of_arc = |angle: f64| {
             let (sin, cos) = angle.sin_cos();
@@ -112,8 +113,8 @@ impl<'a> Place<'a> {
         pieces.map(|(angle, weight)| weight * of_arc(angle)).sum::<f64>() / PI
     }
 
-    /// Angles at which a corner of a facet comes into view, or the horizon crosses the plane that is square
-    /// to the axis.
+    /// Angles at which a corner of a facet comes into view, or the horizon crosses the plane perpendicular to
+    /// the axis.
     fn breaks(&self, zenith: &Vec3) -> Vec<f64> {
         let corners = self.before.iter().flat_map(Polygon::corners).map(|corner| corner - self.point);
         let angle = |towards: Vec3| towards.dot(&self.normal).atan2(towards.dot(&self.aside));
@@ -124,7 +125,7 @@ impl<'a> Place<'a> {
         breaks
     }
 
-    /// The arc that a facet hides of the half-circle about the direction `out`.
+    /// The arc of the semicircle through the direction `out` that a facet hides.
     fn hidden(&self, caster: &Polygon, out: &Vec3) -> Option<[f64; 2]> {
         let side = self.axis.cross(out);
         let mut arc = [f64::INFINITY, f64::NEG_INFINITY];
@@ -144,7 +145,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// Arcs of a half-circle that are above the horizon, the zenith being so far out and so far along the axis.
+/// Arcs of a semicircle above the horizon, for a zenith with these components along `out` and along the axis.
 fn above_horizon(out: f64, along: f64) -> Vec<[f64; 2]> {
     let horizon = -(out / along).atan();
     match along {

@@ -1,35 +1,35 @@
-//! Blobs of even light, which patches of a chart are among.
+//! Blobs of uniform light, among which are the patches of a chart.
 
 use super::super::outline::Place;
 use super::super::plane::Plane;
 
-/// A blob has less change of light in a pixel than one of these: square roots of light, so that noise is
-/// alike everywhere. Dark patches on black need the least, noise the most.
+/// Limits of the change of light per pixel inside a blob, in square roots of light, where noise is uniform.
+/// Dark patches on black need the lowest, noise the highest.
 const EVEN: [f32; 4] = [0.012, 0.025, 0.05, 0.09];
-/// The least and, of the picture, the largest part that a patch covers, px.
+/// Smallest patch, px, and largest as a fraction of the picture.
 const LEAST_PX: usize = 16;
 const LARGEST_PART: f64 = 1.0 / 40.0;
-/// A parallelogram covers twelve times the root of the determinant of its pixels' covariance. Rounded corners
-/// make it a little more, holes and bays less.
+/// Limits of a blob's area over twelve times the root of the determinant of its pixels' covariance: 1 for a
+/// parallelogram, slightly more with rounded corners, less with holes and bays.
 const FILLED: [f64; 2] = [0.72, 1.12];
-/// A patch is at most so many times as long as wide.
+/// Largest ratio of a patch's length to its width.
 const SLIMMEST: f64 = 6.0;
-/// Blobs whose centres are nearer than this, in sides of the larger one, are one that was found twice.
+/// Blobs whose centres are nearer than this, in sides of the larger one, are duplicates.
 const SAME: f64 = 0.35;
-/// Most blobs of a picture, the largest ones.
+/// Most blobs kept per picture, the largest.
 const MOST: usize = 500;
 
-/// A blob of even light.
+/// A blob of uniform light.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Blob {
     pub centre: Place,
-    /// Side of a square of its area, px.
+    /// Side of a square of the same area, px.
     pub side_px: f64,
     /// Its longer side, px.
     pub long_px: f64,
 }
 
-/// The blobs of a picture whose light changes so much from pixel to pixel.
+/// The blobs of a picture with these changes of light from pixel to pixel.
 pub(super) fn blobs(changes: &Plane) -> Vec<Blob> {
     let mut all: Vec<Blob> = EVEN.iter().flat_map(|even| below(changes, *even)).collect();
     all.sort_by(|a, b| b.side_px.total_cmp(&a.side_px));
@@ -90,7 +90,7 @@ impl Sums {
         self.squares = [self.squares[0] + x * x, self.squares[1] + y * y, self.squares[2] + x * y];
     }
 
-    /// The blob, if it may be a patch in a picture of so many pixels.
+    /// The blob, if it can be a patch in a picture of this many pixels.
     fn blob(&self, of_picture: usize) -> Option<Blob> {
         let pixels = self.pixels as f64;
         if self.pixels < LEAST_PX || pixels > LARGEST_PART * of_picture as f64 {
@@ -117,7 +117,7 @@ impl Sums {
 mod tests {
     use super::*;
 
-    /// A picture even where a shape is, and nowhere else.
+    /// A picture that is uniform inside a shape and nowhere else.
     fn found(inside: impl Fn(f64, f64) -> bool) -> Vec<Blob> {
         let is_even = |k: usize| inside((k % 200) as f64 + 0.5, (k / 200) as f64 + 0.5);
         let values = (0..200 * 150).map(|k| if is_even(k) { 0.0 } else { 1.0 }).collect();

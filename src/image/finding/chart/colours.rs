@@ -1,4 +1,4 @@
-//! Whether the colours of a lattice are those of a chart.
+//! Decides whether the colours of a lattice are those of a chart.
 
 use nalgebra::{Matrix3, SMatrix};
 
@@ -10,9 +10,9 @@ pub(super) const PATCHES: usize = COLUMNS * ROWS;
 /// Colours of patches, row by row.
 pub(super) type Colours = [[f64; 3]; PATCHES];
 
-/// The chart's 24 patches as one camera sees them, white being 1: `share/cc24.csv` through
-/// `share/canon-5d-mark-ii.csv` in D55, 400 to 700 nm. Other lights and cameras change them by hardly more
-/// than a linear map.
+/// The chart's 24 patches through one camera, relative to white: `share/cc24.csv` through
+/// `share/canon-5d-mark-ii.csv` in D55, 400 to 700 nm. Other lights and cameras amount to little more than a
+/// linear map.
 #[rustfmt::skip]
 #[allow(clippy::approx_constant)] // colours
 pub(super) const REFERENCE: Colours = [
@@ -30,20 +30,21 @@ pub(super) const REFERENCE: Colours = [
     [0.0918, 0.0929, 0.0937], [0.0332, 0.0338, 0.0348],
 ];
 
-/// Light of this part of the brightest patch counts half: what is darker is noise and stray light.
+/// Fraction of the brightest patch added to a patch's light in its weight: darker light is mostly noise and
+/// stray light.
 const DARK: f64 = 0.03;
 
-/// How far patches are off the chart's, each relative to its own light.
+/// Departure of patches from the chart's, each relative to its own light.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Departure {
-    /// Root of the mean square over patches and channels.
+    /// Root mean square over patches and channels.
     pub rms: f64,
-    /// The largest of a patch and channel.
+    /// The largest over patches and channels.
     pub worst: f64,
 }
 
-/// How far patches are off those of the chart in any light, before any camera: from the linear map of the
-/// chart's colours that is nearest. Nothing is said of a picture without light.
+/// Departure of the patches from the chart's under any light and camera: from the nearest linear map of the
+/// chart's colours. None for a picture without light.
 pub(super) fn departure(seen: &Colours) -> Option<Departure> {
     let light = |patch: &[f64; 3]| patch.iter().sum::<f64>() / 3.0;
     let brightest = seen.iter().map(light).fold(0.0, f64::max);
@@ -70,7 +71,7 @@ mod tests {
     use crate::camera::CameraResponse;
     use crate::spectrum::{Outside, WavelengthGrid, camera, illuminant, reflectances};
 
-    /// The chart through a built-in camera, each channel of white 1.
+    /// The chart through a built-in camera, normalised to 1 for white in each channel.
     fn seen(by: &str, light: &str) -> Colours {
         let grid = WavelengthGrid::uniform(400.0, 700.0, 5.0).unwrap();
         let sensitivities: Vec<_> = camera(by)

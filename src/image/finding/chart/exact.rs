@@ -1,4 +1,4 @@
-//! Where exactly the patches of a chart are: between their edges.
+//! Refines the positions of a chart's patches by their edges.
 
 use nalgebra::Matrix3;
 
@@ -9,29 +9,28 @@ use super::flat::{Flat, PER_CELL};
 use super::placement::patch;
 use super::plane_map::{projective, seen};
 
-/// Where a patch's edge is looked for, in points from its centre, and half of the part of the edge that is
-/// looked at.
+/// Search range for a patch's edge, in points from its centre, and half the length of edge that is averaged.
 const EDGE: [usize; 2] = [PER_CELL / 4, PER_CELL / 2];
 const ALONG: isize = PER_CELL as isize / 4;
-/// An edge is at least this step of light from point to point, all channels together, relative to the patch's
-/// light and this part of white.
+/// Smallest step of light between points at an edge, all channels together, relative to the sum of the
+/// patch's light and this fraction of white.
 const LEAST_STEP: f64 = 0.03;
 const DARK: f64 = 0.03;
-/// Fewest patches by whose edges a chart is placed.
+/// Fewest patches whose edges determine the chart's position.
 const FEWEST: usize = 10;
-/// Patches so many times as far off as the middle one are not counted.
+/// Patches further off than this many times the median are excluded.
 const OUTLYING: f64 = 3.0;
 
-/// What the edges of a chart's patches say.
+/// The chart's position by the edges of its patches.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Exact {
-    /// From columns and rows to the picture, as the map that the chart was made flat with.
+    /// From columns and rows to the picture, in the form of the map from which the flat chart was made.
     pub to_picture: Matrix3<f64>,
     /// Half of a patch's side, in cells.
     pub half: f64,
 }
 
-/// The chart's place by the middles between opposite edges of its patches.
+/// The chart's position by the midpoints between opposite edges of its patches.
 pub(super) fn exact(flat: &Flat, to_picture: &Matrix3<f64>) -> Option<Exact> {
     let white = flat.colours().iter().flatten().copied().fold(0.0, f64::max);
     let sides = |k: usize| {
@@ -64,10 +63,10 @@ pub(super) fn exact(flat: &Flat, to_picture: &Matrix3<f64>) -> Option<Exact> {
     Some(Exact { to_picture: projective(&pairs(&near)).unwrap_or(first), half })
 }
 
-/// How far an edge of a patch is from its centre, in cells, along one of the four ways.
+/// Distance of a patch's edge from its centre, in cells, in one of the four directions.
 fn edge(flat: &Flat, k: usize, (right, down): (isize, isize), white: f64) -> Option<f64> {
     let light = |out: usize| {
-        // point 0 lies half a point beyond the centre: to the left and up points count from -1
+        // point 0 lies half a point beyond the centre; leftwards and upwards, points count from -1
         let out = out as isize;
         let place = |way: isize| if way < 0 { -1 - out } else { out };
         let points = (-ALONG..ALONG).map(|along| match right {
@@ -90,6 +89,6 @@ fn edge(flat: &Flat, k: usize, (right, down): (isize, isize), white: f64) -> Opt
         return None;
     }
     let offset = 0.5 * (before - after) / bend;
-    // the step from one point's middle to the next one's
+    // the step from one point's middle to the next
     Some(((EDGE[0] + at) as f64 + 1.0 + offset) / PER_CELL as f64)
 }

@@ -1,4 +1,4 @@
-//! A chart as it is seen straight on, made of all the photograph's pixels, and the light of its patches.
+//! A rectified chart, made from all the photograph's pixels, and the light of its patches.
 
 use nalgebra::Matrix3;
 
@@ -16,17 +16,17 @@ pub(super) const PER_CELL: usize = 24;
 const MARGIN: usize = 14;
 const WIDTH: usize = PER_CELL * (COLUMNS - 1) + 2 * MARGIN;
 const HEIGHT: usize = PER_CELL * (ROWS - 1) + 2 * MARGIN;
-/// Most pixels that are averaged for a point, each way.
+/// Most pixels averaged for a point, in each direction.
 const MOST_PIXELS: usize = 4;
-/// Half of the part of a patch whose light is its colour, in points.
+/// Half the part of a patch whose light is its colour, in points.
 const MIDDLE: usize = PER_CELL / 4;
 
-/// A chart seen straight on.
+/// A rectified chart.
 pub(super) struct Flat(Vec<[f64; 3]>);
 
 impl Flat {
-    /// The chart where a map from columns and rows to the picture without what the lens bends has it. Beyond
-    /// the picture its edge goes on.
+    /// The chart that `to_picture` maps from columns and rows to the undistorted picture. Beyond its border
+    /// the picture is continued.
     pub fn of(photograph: &Photograph, lens: &Lens, to_picture: &Matrix3<f64>) -> Self {
         let at = |x: f64, y: f64| {
             let ideal = seen(to_picture, Place::new(x, y));
@@ -49,7 +49,7 @@ impl Flat {
         Self((0..WIDTH * HEIGHT).map(point).collect())
     }
 
-    /// The mean light of the patches' middles.
+    /// Mean light in the middle of each patch.
     pub fn colours(&self) -> Colours {
         std::array::from_fn(|k| {
             let middle = MIDDLE as isize;
@@ -59,8 +59,8 @@ impl Flat {
         })
     }
 
-    /// The point so many points to the right of and below a patch's centre, that of point 0 being half a
-    /// point beyond it.
+    /// The point at this offset to the right of and below a patch's centre; point 0 has its centre half a
+    /// point beyond that.
     pub fn offset(&self, k: usize, x: isize, y: isize) -> [f64; 3] {
         let centre = patch(k) * PER_CELL as f64;
         let at = |centre: f64, off: isize, size: usize| {
@@ -74,7 +74,7 @@ fn added(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-/// The light between four pixels' centres, by distance.
+/// Light at a point, interpolated bilinearly between four pixels' centres.
 fn light(photograph: &Photograph, at: Point) -> [f64; 3] {
     let [x, y] = [at.x - 0.5, at.y - 0.5];
     let column = |x: f64| (x.max(0.0) as usize).min(photograph.width() - 1);

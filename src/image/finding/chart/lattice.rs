@@ -1,4 +1,4 @@
-//! Lattices of blobs, seen in any perspective.
+//! Lattices of blobs in arbitrary perspective.
 
 use std::collections::BTreeMap;
 
@@ -10,27 +10,25 @@ use super::plane_map::{affine, projective, seen};
 
 /// Blobs from which lattices are grown, those with most neighbours first.
 const SEEDS: usize = 80;
-/// Blobs nearest to one are looked at as its neighbours.
+/// Nearest blobs that are considered as neighbours.
 const NEIGHBOURS: usize = 9;
-/// Neighbours are at most this far from each other, in longer sides of the first, and at most so many times
-/// as large or small.
+/// Largest distance between neighbours, in longer sides of the first, and largest ratio of their sizes.
 const NEAR: f64 = 2.6;
 const ALIKE: f64 = 2.0;
-/// Blobs of a lattice are at most so many times as large or small as the first: what is further off looks
-/// smaller.
+/// Largest ratio of a blob's size to that of the lattice's first: distant blobs look smaller.
 const ALIKE_IN_ALL: f64 = 2.3;
-/// The least sine of the angle between neighbours.
+/// The least sine of the angle between the steps to two neighbours.
 const LEAST_SINE: f64 = 0.3;
-/// The area of a cell of the lattice, in areas of the blob: patches lie close to each other, and edges take
-/// some of a blob.
+/// Area of a lattice cell, in areas of the blob: patches lie close to each other, and edges take some of a
+/// blob.
 const CELL: [f64; 2] = [0.9, 8.0];
-/// A blob is of the lattice if it is this near to a node, in cells.
+/// Largest distance of a blob from its node, in cells.
 const OFF: f64 = 0.22;
-/// In each round blobs so many nodes away are taken in; a chart has six in a row.
+/// Reach of each round, in nodes; a chart has six in a row.
 const ROUNDS: [i32; 5] = [1, 2, 4, 6, 6];
-/// From this many blobs on perspective can be determined.
+/// Fewest blobs that determine perspective.
 const ENOUGH: usize = 8;
-/// Lattices of so many blobs are not grown from each of them again.
+/// Lattices of this many blobs are not grown again from each of them.
 const WHOLE: usize = 12;
 
 /// A node of a lattice: column and row.
@@ -45,7 +43,7 @@ pub(super) struct Lattice {
     pub nodes: BTreeMap<Node, usize>,
 }
 
-/// The lattices in which blobs lie, one at a time, until `is_enough` of one.
+/// Lattices of blobs, one at a time, until `is_enough` accepts one.
 pub(super) fn lattices(blobs: &[Blob], mut is_enough: impl FnMut(&Lattice) -> bool) {
     let neighbours: Vec<Vec<usize>> = (0..blobs.len()).map(|k| neighbours(blobs, k)).collect();
     let mut seeds: Vec<usize> = (0..blobs.len()).collect();
@@ -67,7 +65,7 @@ pub(super) fn lattices(blobs: &[Blob], mut is_enough: impl FnMut(&Lattice) -> bo
     }
 }
 
-/// The blobs next to one that are like it.
+/// The similar blobs next to one.
 fn neighbours(blobs: &[Blob], k: usize) -> Vec<usize> {
     let this = &blobs[k];
     let distance = |other: &Blob| (other.centre - this.centre).norm();
@@ -80,8 +78,8 @@ fn neighbours(blobs: &[Blob], k: usize) -> Vec<usize> {
     near
 }
 
-/// Ways to the next columns and rows that a blob's neighbours may show, those to the nearest first; the four
-/// turns of a lattice are one.
+/// Steps to the next column and row that a blob's neighbours may define, shortest first; of a lattice's four
+/// turns only one is returned.
 fn pairs(blobs: &[Blob], seed: usize, neighbours: &[usize]) -> Vec<(Place, Place)> {
     let this = &blobs[seed];
     let steps: Vec<Place> = neighbours.iter().map(|k| blobs[*k].centre - this.centre).collect();
@@ -98,7 +96,7 @@ fn pairs(blobs: &[Blob], seed: usize, neighbours: &[usize]) -> Vec<(Place, Place
     pairs
 }
 
-/// The lattice that goes on from a blob to those next to it.
+/// The lattice that continues from a blob and its neighbours.
 fn grow(blobs: &[Blob], seed: usize, right: Place, down: Place) -> Option<Lattice> {
     let first = &blobs[seed];
     let mut to_picture = Matrix3::from_columns(&[right.push(0.0), down.push(0.0), first.centre.push(1.0)]);
@@ -115,7 +113,7 @@ fn grow(blobs: &[Blob], seed: usize, right: Place, down: Place) -> Option<Lattic
     (nodes.len() >= ENOUGH).then_some(Lattice { to_picture, nodes })
 }
 
-/// The nearest blob of each node up to so many away from the first.
+/// The nearest blob to each node within `reach` of the first.
 fn taken_in(
     blobs: &[Blob],
     first: &Blob,

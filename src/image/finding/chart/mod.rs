@@ -1,15 +1,15 @@
-//! Where a colour chart of 24 patches is in a photograph, and how sure that is.
+//! Locates a colour chart of 24 patches in a photograph, with a confidence.
 //!
-//! Four rows of six patches, as ColorChecker Classic, Passport and Nano have them:
+//! Four rows of six patches, as on ColorChecker Classic, Passport and Nano:
 //!
-//! 1. [`blobs`]: places of even light;
-//! 2. [`lattice`], [`plane_map`]: those of them that lie in rows and columns, in any perspective;
-//! 3. [`placement`], [`colours`], [`search`]: the four rows of six, turned any way, whose colours a linear
-//!    map makes of the chart's, whatever light and camera are;
-//! 4. [`flat`], [`exact`]: exactly where its patches end, in the whole picture.
+//! 1. [`blobs`]: places of uniform light;
+//! 2. [`lattice`], [`plane_map`]: those that form rows and columns in arbitrary perspective;
+//! 3. [`placement`], [`colours`], [`search`]: four rows of six, in any rotation, whose colours are a linear
+//!    map of the chart's, whatever the light and camera;
+//! 4. [`flat`], [`exact`]: the exact ends of the patches, at full resolution.
 //!
-//! What a hand, a shadow or the edge of the picture takes of a chart shows in the colours, which make the
-//! confidence.
+//! A hand, a shadow or the edge of the picture that hides part of a chart changes its colours, from which the
+//! confidence is computed.
 
 mod blobs;
 mod colours;
@@ -41,28 +41,28 @@ pub struct DetectedChart {
     /// Outer corners of the block of patches, px of the upright picture, in the order of
     /// [`CHART_CORNERS`](crate::image::CHART_CORNERS).
     pub corners: [Point; 4],
-    /// Probability that all of them are within a third of a patch of where they should be.
+    /// Probability that all are within a third of a patch of their true positions.
     pub confidence: f64,
 }
 
-/// Rounds in which patches' edges are looked for.
+/// Rounds of the search for patches' edges.
 const ROUNDS: usize = 2;
-/// What the confidence is made of.
+/// Number of clues behind the confidence.
 pub const CLUES: usize = 2;
-/// Its weights, by `benches/find_fit.py`.
+/// Their weights, fitted by `benches/find_fit.py`.
 const OFFSET: f64 = -13.88;
 const WEIGHTS: [f64; CLUES] = [-1.516, -8.188];
-/// Half of a patch's side in cells, if its edges do not say: that of a Classic.
+/// Half of a patch's side in cells if its edges are not found: that of a Classic.
 const HALF: f64 = 0.44;
 
 impl DetectedChart {
     /// Rows and columns of its patches.
     pub const GRID: [usize; 2] = [ROWS, COLUMNS];
-    /// From this confidence on a chart is used without a look at it: of pictures of sheets left out of the
-    /// fit none of so much was wrong.
+    /// From this confidence on a chart is used without review: among pictures left out of the fit, none at or
+    /// above it was wrong.
     pub const SURE: f64 = 0.97;
 
-    /// Whether it may be used without a look at it.
+    /// Whether it may be used without review.
     #[must_use]
     pub fn is_sure(&self) -> bool {
         self.confidence >= Self::SURE
@@ -72,10 +72,10 @@ impl DetectedChart {
 /// Finds the colour chart in a photograph.
 ///
 /// # Arguments
-/// - `lens`: what bends the picture; its sides are straight without it.
+/// - `lens`: distortion of the picture; without it the chart's sides are straight.
 ///
 /// # Returns
-/// The chart, or what is most like one; none if nothing is, or if it is not all in the picture.
+/// The best match, right or not; none if nothing is similar or the chart is not entirely in the picture.
 ///
 /// # Example
 /// ```
@@ -89,8 +89,8 @@ pub fn find_chart(photograph: &Photograph, lens: &Lens) -> Option<DetectedChart>
     weighed_chart(photograph, lens).map(|(found, _)| found)
 }
 
-/// The same, and what its confidence is made of, to fit that: logarithms of how far off its patches' colours
-/// are, in the mean and at most.
+/// The same, and the clues behind its confidence, for fitting: logarithms of its patches' rms and largest
+/// departures from the chart's colours.
 #[must_use]
 pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(DetectedChart, [f64; CLUES])> {
     let reduced = Reduced::of(photograph);
@@ -112,8 +112,8 @@ pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(DetectedCh
     Some((DetectedChart { corners, confidence: 1.0 / (1.0 + (-log_odds).exp()) }, clues))
 }
 
-/// The map to the photograph without what its lens bends, from one to the picture that so many of its pixels
-/// are a pixel of.
+/// The map to the undistorted photograph, from a map to a reduced picture whose pixels are `scale` of the
+/// photograph's wide.
 fn ideal(lens: &Lens, to_picture: &Matrix3<f64>, scale: f64) -> Option<Matrix3<f64>> {
     let pair = |k: usize| {
         let at = seen(to_picture, patch(k)) * scale;
@@ -149,7 +149,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(24))]
 
-        /// Turned by any angle, upside down among them, leaning away to any side.
+        /// Turned by any angle, even upside down, and leaning away to any side.
         #[test]
         fn charts_are_found_where_they_are(
             turn_deg in 0.0..360.0,

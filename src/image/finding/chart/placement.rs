@@ -1,4 +1,4 @@
-//! Which nodes of a lattice are the patches of a chart, and which is the first of them.
+//! Decides which nodes of a lattice are the patches of a chart, and which is the first.
 
 use std::collections::BTreeMap;
 
@@ -9,15 +9,15 @@ use super::lattice::{Lattice, Node};
 use super::plane_map::{projective, seen};
 use nalgebra::Matrix3;
 
-/// Fewest blobs on the patches of a chart, and least part of the lattice's blobs that are on them.
+/// Fewest blobs on the patches of a chart, and least fraction of the lattice's blobs on them.
 const FEWEST: usize = 10;
 const LEAST_PART: f64 = 0.6;
-/// A chart may begin so many nodes beyond the lattice's blobs.
+/// Most nodes by which a chart may begin beyond the lattice's blobs.
 const BEYOND: i32 = 2;
-/// Half of the part of a cell whose light is looked at, and places in it, each way.
+/// Half of the part of a cell whose light is sampled, and the number of samples in each direction.
 const MIDDLE: f64 = 0.22;
 const PLACES: usize = 5;
-/// Colours that are further off are those of something else.
+/// Colours with a larger departure belong to something else.
 const MOST_OFF: f64 = 0.4;
 
 /// A chart on a lattice.
@@ -26,11 +26,11 @@ pub(super) struct Placement {
     /// From columns and rows of the chart, the first patch's centre being (0, 0), to the picture, px.
     pub to_picture: Matrix3<f64>,
     pub departure: Departure,
-    /// Patches that are blobs.
+    /// Number of patches that are blobs.
     pub blobs: usize,
 }
 
-/// The place of the chart's patch in the lattice where the first is on node 0, 0, of each of the four turns.
+/// The lattice node of a chart's patch, in each of the four turns, up to a translation.
 fn turned(k: usize, turn: usize) -> Node {
     let (column, row) = ((k % COLUMNS) as i32, (k / COLUMNS) as i32);
     let (last_column, last_row) = (COLUMNS as i32 - 1, ROWS as i32 - 1);
@@ -42,7 +42,7 @@ fn turned(k: usize, turn: usize) -> Node {
     }
 }
 
-/// The placement of a chart on a lattice whose colours are nearest to those of one.
+/// The placement of a chart on a lattice with the best match of colours.
 pub(super) fn placed(lattice: &Lattice, light: &[Plane; 3]) -> Option<Placement> {
     let span = |n: usize| {
         let all = lattice.nodes.keys().map(|node| node[n]);
@@ -77,7 +77,7 @@ pub(super) fn placed(lattice: &Lattice, light: &[Plane; 3]) -> Option<Placement>
     best
 }
 
-/// The map of a lattice whose patches are on these nodes.
+/// The map of a chart whose patches are on these nodes.
 fn on_chart(lattice: &Lattice, nodes: &[Node; PATCHES]) -> Option<Matrix3<f64>> {
     let pair = |(k, node): (usize, &Node)| (patch(k), seen(&lattice.to_picture, place(*node)));
     projective(&nodes.iter().enumerate().map(pair).collect::<Vec<_>>())
@@ -92,7 +92,7 @@ pub(super) fn patch(k: usize) -> Place {
     Place::new((k % COLUMNS) as f64, (k / COLUMNS) as f64)
 }
 
-/// The mean light around a node; none if that is not in the picture.
+/// The mean light around a node; none if it is outside the picture.
 fn at_node(lattice: &Lattice, node: Node, light: &[Plane; 3]) -> Option<[f64; 3]> {
     let width = light[0].width;
     let height = light[0].values.len() / width;

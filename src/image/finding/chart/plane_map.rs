@@ -1,21 +1,21 @@
-//! How a plane is seen in perspective, from places of it that are seen where.
+//! How a plane is seen in perspective, from pairs of places on it and in the picture.
 
 use nalgebra::{Matrix3, SMatrix, SVector, SymmetricEigen, Vector3};
 
 use super::super::outline::Place;
 
-/// Numbers of a projective map, of which one is its scale.
+/// Entries of a projective map, one of which is its scale.
 const NUMBERS: usize = 9;
-/// Places that fix it.
+/// Fewest places that determine it.
 const FEWEST: usize = 4;
 
-/// A place of the plane in the picture.
+/// Position in the picture of a place on the plane.
 pub(super) fn seen(map: &Matrix3<f64>, place: Place) -> Place {
     let seen = map * place.push(1.0);
     Place::new(seen.x / seen.z, seen.y / seen.z)
 }
 
-/// The projective map that takes places of a plane to where they are seen, by least squares.
+/// The projective map from places on a plane to their positions in the picture, by least squares.
 ///
 /// Source: R. Hartley, A. Zisserman, *Multiple View Geometry* (2004), algorithm 4.2.
 pub(super) fn projective(pairs: &[(Place, Place)]) -> Option<Matrix3<f64>> {
@@ -43,7 +43,7 @@ pub(super) fn projective(pairs: &[(Place, Place)]) -> Option<Matrix3<f64>> {
     map.iter().all(|number| number.is_finite()).then_some(map)
 }
 
-/// The affine map that does, through the first three of its pairs if there are no more.
+/// The affine map from places to the picture; through three pairs exactly.
 pub(super) fn affine(pairs: &[(Place, Place)]) -> Option<Matrix3<f64>> {
     let (mut normal, mut right) = (Matrix3::zeros(), Matrix3::zeros());
     for (place, seen) in pairs {
@@ -54,7 +54,7 @@ pub(super) fn affine(pairs: &[(Place, Place)]) -> Option<Matrix3<f64>> {
     Some(normal.try_inverse()? * right).map(|map| map.transpose())
 }
 
-/// What moves places to the origin, to be 1 from it in the mean.
+/// Moves places to the origin and scales them to a mean distance of 1 from it.
 fn normalising(places: impl Iterator<Item = Place> + Clone) -> Matrix3<f64> {
     let count = places.clone().count() as f64;
     let middle = places.clone().sum::<Place>() / count;

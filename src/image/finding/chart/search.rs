@@ -1,5 +1,4 @@
-//! The chart of a reduced picture: in a picture of half its size first, as noise breaks up the blobs of the
-//! whole.
+//! The chart of a reduced picture: first at half its size, because noise breaks up blobs at full size.
 
 use nalgebra::Matrix3;
 
@@ -10,14 +9,14 @@ use super::blobs::blobs;
 use super::lattice::lattices;
 use super::placement::{Placement, placed};
 
-/// Blur before changes of light are looked at, px.
+/// Blur before changes of light are computed, px.
 const BLUR_PX: f32 = 0.8;
-/// A chart of which so many patches are seen, and whose colours are so near, is not looked for further.
+/// A chart with this many patches seen and colours this near ends the search.
 const SEEN: usize = 16;
 const NEAR: f64 = 0.08;
 
-/// The map of the chart in a reduced picture, or in half of it, and how many pixels of the photograph a pixel
-/// there is.
+/// The number of the photograph's pixels per pixel of a reduced picture or its half, and the map of the chart
+/// there.
 pub(super) fn searched(reduced: &Reduced) -> Option<(f64, Matrix3<f64>)> {
     let half = reduced.halved();
     let in_half = search(&half);
@@ -32,7 +31,7 @@ fn is_good(placement: &Placement) -> bool {
     placement.blobs >= SEEN && placement.departure.rms < NEAR
 }
 
-/// The chart of a reduced picture that departs least from one.
+/// The chart of a reduced picture with the smallest departure.
 fn search(picture: &Reduced) -> Option<Placement> {
     let [xx, yy, _] = steps(&picture.even(), BLUR_PX);
     let values = xx.values.iter().zip(&yy.values).map(|(xx, yy)| (xx + yy).sqrt()).collect();

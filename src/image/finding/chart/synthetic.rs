@@ -7,18 +7,18 @@ use crate::image::placing::{Homography, Lens, Point};
 
 pub(super) const WIDTH: usize = 480;
 pub(super) const HEIGHT: usize = 360;
-/// Part of the distance from patch to patch that a patch fills.
+/// Width of a patch relative to the distance between patches.
 const FILLED: f64 = 0.88;
-/// What lies between patches, and around the chart.
+/// Light between patches, and around the chart.
 const FRAME: [f64; 3] = [0.03; 3];
 const GROUND: [f64; 3] = [0.3, 0.2, 0.12];
-/// The frame is wider than the block of patches, at each side, by this part of it.
+/// Width of the frame beyond the block of patches at each side, relative to the block.
 const BORDER: f64 = 0.06;
-/// Points of a pixel, each way.
+/// Points per pixel in each direction.
 const POINTS: usize = 3;
 
 /// The outer corners of a chart in the middle of the picture: turned, leaning back to the right and downwards
-/// by these parts, and as wide as this part of the picture before.
+/// by these fractions, and before that as wide as this fraction of the picture.
 pub(super) fn tilted(turn_deg: f64, lean: [f64; 2], width: f64) -> [Point; 4] {
     let (sin, cos) = turn_deg.to_radians().sin_cos();
     [(-0.5, -1.0 / 3.0), (0.5, -1.0 / 3.0), (0.5, 1.0 / 3.0), (-0.5, 1.0 / 3.0)].map(|(x, y)| {

@@ -1,6 +1,6 @@
-//! What a DNG says of a sensor's numbers: how they are laid out, and what they mean.
+//! The layout and meaning of a sensor's numbers in a DNG.
 //!
-//! Its decoder unpacks them and does no more: it is shown a directory that has their layout alone. All else
+//! The decoder only unpacks them: it is shown a directory that contains their layout alone. Everything else
 //! is taken from the file's own tags.
 //!
 //! # Source
@@ -20,26 +20,26 @@ use crate::image::photograph::Mosaic;
 use crate::image::reading::tiff::tags::{DNG_VERSION, NEW_SUBFILE_TYPE, PHOTOMETRIC};
 use crate::{Error, Result};
 
-/// What a DNG says of its sensor's numbers.
+/// Description of a sensor's numbers in a DNG.
 pub(super) struct Dng {
     /// Columns and rows of the whole sensor.
     pub size: Dim2,
     pub samples: usize,
     /// `16-bit` or `float`.
     pub kind: String,
-    /// The picture's part of the sensor.
+    /// The part of the sensor that forms the picture.
     pub area: Rect,
-    /// From that part's corner on; none if every site has all colours.
+    /// Starting at that part's corner; none if every site has all colours.
     pub mosaic: Option<Mosaic>,
     pub levels: Levels,
-    /// What stored numbers stand for, by number; empty if for themselves.
+    /// Meaning of stored numbers, by number; empty if they are linear.
     pub linearization: Vec<f64>,
     pub opcodes: Opcodes,
-    /// What the decoder sees.
+    /// What the decoder sees of the file.
     pub shown: Shown,
 }
 
-/// Rows and columns of filters that repeat, and their colours.
+/// Rows and columns of the repeated filter pattern, and its colours.
 const FILTERS: [u16; 2] = [33421, 33422];
 /// The oldest version whose readers can read the file.
 const BACKWARD_VERSION: u16 = 50707;
@@ -53,14 +53,14 @@ const MOSAIC: usize = 32803;
 const LINEAR: usize = 34892;
 const GREY: usize = 1;
 
-/// The newest version that is known here.
+/// The newest version supported here.
 const VERSION: [f64; 2] = [1.0, 7.0];
 
 impl Dng {
-    /// None if the file is no DNG.
+    /// None if the file is not a DNG.
     ///
     /// # Errors
-    /// [`Error::Picture`] if it contradicts itself, is cut short, or holds what is not read.
+    /// [`Error::Picture`] if it contradicts itself, is cut short, or contains something unsupported.
     pub fn read(path: &Path, tiff: Tiff) -> Result<Option<Self>> {
         let directories = tiff.directories();
         let Some(root) = directories.iter().find(|directory| directory.has_tag(DNG_VERSION)) else {
@@ -99,8 +99,7 @@ fn number(directory: &Directory, tag: u16) -> Option<usize> {
     directory.number(tag).map(|number| number as usize)
 }
 
-/// The directory of what the sensor saw: no preview, mask, map of depth, or picture that a program made of
-/// it.
+/// The directory of the sensor's numbers: no preview, mask, depth map, or picture processed from them.
 fn sensor<'a, 'b>(path: &Path, directories: &'b [Directory<'a>]) -> Result<&'b Directory<'a>> {
     let is = |directory: &Directory, photometric: &[usize]| {
         number(directory, NEW_SUBFILE_TYPE).unwrap_or(0) == 0
@@ -123,7 +122,7 @@ fn sensor<'a, 'b>(path: &Path, directories: &'b [Directory<'a>]) -> Result<&'b D
     }
 }
 
-/// The part of the sensor that sees light.
+/// The part of the sensor exposed to light.
 fn active_area(path: &Path, directory: &Directory, size: Dim2) -> Result<Rect> {
     let Some(sides) = directory.numbers(ACTIVE_AREA) else {
         return Ok(Rect::new(Point::zero(), size));
@@ -137,7 +136,7 @@ fn active_area(path: &Path, directory: &Directory, size: Dim2) -> Result<Rect> {
     }
 }
 
-/// The part of the active area that the camera recommends.
+/// The crop of the active area recommended by the camera.
 fn crop(path: &Path, directory: &Directory, active: Rect, size: Dim2) -> Result<Rect> {
     let [origin, extent] = CROP.map(|tag| directory.numbers(tag).unwrap_or_default());
     let ([x, y], [w, h]) = (&origin[..], &extent[..]) else { return Ok(active) };
@@ -150,7 +149,7 @@ fn crop(path: &Path, directory: &Directory, active: Rect, size: Dim2) -> Result<
     Ok(Rect::new(corner, Dim2::new(w, h)))
 }
 
-/// The colour filters from the active area's corner on.
+/// The colour filters, starting at the active area's corner.
 fn mosaic(path: &Path, directory: &Directory) -> Result<Mosaic> {
     let filters = directory.numbers(FILTERS[1]).unwrap_or_default();
     let repeat = directory.numbers(FILTERS[0]).unwrap_or_else(|| vec![2.0, 2.0]);
@@ -162,7 +161,7 @@ fn mosaic(path: &Path, directory: &Directory) -> Result<Mosaic> {
     let filters =
         filters.ok_or_else(|| damaged(path, format!("its CFAPattern has not {rows} x {columns} filters")))?;
     let (rows, columns, _) = filters.dim();
-    // a square that both repeat in
+    // a square that contains whole repetitions of both
     let side =
         (1..=rows).map(|n| n * columns).find(|side| side.is_multiple_of(rows)).unwrap_or(rows * columns);
     let letter = |at: usize| match filters[[at / side % rows, at % side % columns, 0]] as usize {

@@ -1,4 +1,4 @@
-//! How a DNG's numbers are laid out in the file, and what the decoder is shown of it.
+//! The layout of a DNG's numbers in the file, and the directory shown to the decoder.
 //!
 //! # Source
 //! Adobe, *Digital Negative Specification* 1.7, chapters 2 and 4; *TIFF* 6.0.
@@ -14,23 +14,23 @@ use crate::image::reading::jpeg::Jpeg;
 use crate::image::reading::tiff::tags;
 use crate::image::reading::tiff::written::{long, written};
 
-/// Where strips are, and how long.
+/// Offsets and lengths of strips.
 const STRIPS: [u16; 2] = [tags::STRIP_OFFSETS, tags::STRIP_BYTE_COUNTS];
-/// Width and height of tiles,
+/// Width and height of tiles.
 const TILE_SIZE: [u16; 2] = [tags::TILE_WIDTH, tags::TILE_LENGTH];
-/// where they are, and how long.
+/// Offsets and lengths of tiles.
 const TILES: [u16; 2] = [tags::TILE_OFFSETS, tags::TILE_BYTE_COUNTS];
 const FILTERS_LAYOUT: u16 = 50711;
 const SUB_TILE: u16 = 50974;
-/// By how many rows and columns are interleaved.
+/// Interleaving factors of rows and columns.
 const INTERLEAVE: [u16; 2] = [50975, 52547];
 const JXL_DISTANCE: u16 = 52553;
 
-/// Make, model, orientation, directories of EXIF and GPS, version and colours: what the decoder is shown of
-/// the first directory.
+/// Tags of the first directory shown to the decoder: make, model, orientation, directories of EXIF and GPS,
+/// version and colours.
 const OF_CAMERA: [u16; 10] = [271, 272, 274, 34665, 34853, 50706, 50721, 50722, 50778, 50779];
 
-/// What the decoder is shown in the place of the colours, which are none of its business.
+/// Photometric interpretation shown to the decoder, which need not know the colours.
 const LINEAR: usize = 34892;
 
 const UNCOMPRESSED: usize = 1;
@@ -42,23 +42,23 @@ const JPEG_XL: usize = 52546;
 /// Predictors of floats: bytes by significance, less that of the sample one, two or four before.
 const FLOAT_PREDICTORS: [usize; 3] = [3, 34894, 34895];
 
-/// The first directory's place, and what is added to the file: as the decoder shall see it.
+/// The offset of the first directory and the bytes appended to the file, as shown to the decoder.
 pub(super) struct Shown {
     first: [u8; 4],
     added: Vec<u8>,
 }
 
 impl Shown {
-    /// Makes a file what the decoder shall see.
+    /// Modifies a file as the decoder shall see it.
     pub fn to(&self, file: &mut Vec<u8>) {
         file[4..8].copy_from_slice(&self.first);
-        // a file of hundreds of megabytes should not be given twice its room
+        // do not double the memory of a file of hundreds of megabytes
         file.reserve_exact(self.added.len());
         file.extend(&self.added);
     }
 }
 
-/// How the numbers are laid out in the file.
+/// The layout of the numbers in the file.
 pub(super) struct Layout {
     pub size: Dim2,
     pub samples: usize,
@@ -70,7 +70,7 @@ pub(super) struct Layout {
     segments: Segments,
 }
 
-/// The strips or tiles that a picture is cut into.
+/// The strips or tiles of a picture.
 struct Segments {
     are_tiles: bool,
     size: Dim2,
@@ -80,7 +80,7 @@ struct Segments {
 
 impl Layout {
     /// # Errors
-    /// [`Error::Picture`] if that is none that the decoder unpacks rightly, or the file is cut short.
+    /// [`Error::Picture`] if the decoder does not unpack this layout correctly, or the file is cut short.
     pub fn read(path: &Path, tiff: Tiff, directory: &Directory) -> Result<Self> {
         let number = |tag, default: usize| directory.number(tag).map_or(default, |number| number as usize);
         let size = Dim2::new(number(tags::WIDTH, 0), number(tags::HEIGHT, 0));
@@ -129,8 +129,8 @@ impl Layout {
         Ok(layout)
     }
 
-    /// Whether its decoder brings interleaved rows and columns to their places. It does so by halves of the
-    /// numbers, and not with floats.
+    /// Whether the decoder deinterleaves rows and columns correctly. It does so by halves of the numbers, and
+    /// not for floats.
     fn is_deinterleaved(&self) -> bool {
         let Dim2 { w, h } = self.size;
         match self.interleave {
@@ -141,7 +141,7 @@ impl Layout {
     }
 
     /// # Errors
-    /// [`Error::Picture`] if its decoder would fail, or unpack other numbers.
+    /// [`Error::Picture`] if the decoder would fail, or unpack wrong numbers.
     fn check_compression(&self, path: &Path, tiff: Tiff, directory: &Directory) -> Result<()> {
         let Self { bits, is_float, segments, .. } = self;
         let row_bits = self.row_bits();
@@ -181,12 +181,12 @@ impl Layout {
         Ok(())
     }
 
-    /// Bits of a row of a strip or tile, uncompressed.
+    /// Bits per row of a strip or tile, uncompressed.
     fn row_bits(&self) -> usize {
         self.segments.size.w * self.samples * self.bits
     }
 
-    /// Its decoder takes the numbers of a segment row by row, in whatever rows JPEG has them.
+    /// The decoder takes the numbers of a segment row by row, whatever the rows of the JPEG.
     fn check_jpeg(&self, path: &Path, bytes: &[u8], rows: usize) -> Result<()> {
         const LOSSLESS: u8 = 0xc3;
         let frame = Jpeg(bytes).frame();
@@ -207,10 +207,10 @@ impl Layout {
         Ok(())
     }
 
-    /// A directory of the layout, and of what the camera wrote, at the end of the file.
+    /// A directory of the layout and the camera's notes, to be appended to the file.
     ///
-    /// Strips that follow one another the decoder takes for one. Compressed ones are shown as tiles,
-    /// therefore, and of others no more than their numbers take.
+    /// The decoder merges adjacent strips. Compressed ones are therefore shown as tiles, and others with no
+    /// more bytes than their numbers take.
     pub fn shown(&self, tiff: Tiff, root: &Directory) -> Shown {
         let Self { size, segments, .. } = self;
         let are_tiles = segments.are_tiles || self.compression != UNCOMPRESSED;
@@ -242,7 +242,7 @@ impl Layout {
         }
         let of_camera: Vec<_> =
             OF_CAMERA.into_iter().filter_map(|tag| Some((tag, root.stored(tag)?))).collect();
-        // directories begin at even places
+        // directories begin at even offsets
         let pad = tiff.file().len() % 2;
         let at = (tiff.file().len() + pad) as u64;
         let mut added = vec![0; pad];
@@ -280,7 +280,7 @@ impl Segments {
         Ok(Self { are_tiles, size, offsets, lengths })
     }
 
-    /// The rows of numbers in one of them; tiles are whole, the last strip need not be.
+    /// The rows of a segment; tiles are complete, the last strip may be shorter.
     fn rows(&self, segment: usize, picture: Dim2) -> usize {
         if self.are_tiles { self.size.h } else { self.size.h.min(picture.h - segment * self.size.h) }
     }

@@ -1,7 +1,7 @@
 //! Black and white levels of a sensor.
 //!
-//! Every site may have a black level of its own. What white is above black is one for all sites of a sample,
-//! the white level above the highest black one, so that equal numbers above black are equal light.
+//! Every site may have a black level of its own. The distance from black to white is the same for all sites
+//! of a sample, measured from the highest black level, so that equal numbers above black are equal light.
 //!
 //! # Source
 //! Adobe, *Digital Negative Specification* 1.7, chapter 5.
@@ -26,25 +26,25 @@ const WHITE: u16 = 50717;
 /// More levels than any pattern has.
 const MAX_LEVELS: usize = 1 << 12;
 
-/// Black and white levels of a sensor, in stored numbers after their linearization.
+/// Black and white levels of a sensor, in linearized stored numbers.
 pub(super) struct Levels {
-    /// By row, column and sample of a pattern that is repeated.
+    /// By row, column and sample of a repeated pattern.
     black: Array3<f64>,
     /// Column and row of the sensor where the pattern and the deltas begin.
     origin: Point,
-    /// What is added in each column; empty if nothing is.
+    /// Added in each column; empty if zero.
     by_column: Vec<f64>,
-    /// The same in each row.
+    /// Added in each row; empty if zero.
     by_row: Vec<f64>,
     /// By sample.
     white: Vec<f64>,
 }
 
 impl Levels {
-    /// Those that a DNG has, from its active area's corner on.
+    /// The levels in a DNG, starting at its active area's corner.
     ///
     /// # Errors
-    /// [`crate::Error::Picture`] if there are more or fewer than its sites and samples need.
+    /// [`crate::Error::Picture`] if their number does not fit its sites and samples.
     pub fn of_dng(
         path: &Path,
         directory: &Directory,
@@ -64,7 +64,7 @@ impl Levels {
                 Err(damaged(path, problem))
             }
         };
-        // a Pentax writes one number, which means nothing
+        // some Pentax files contain one meaningless number
         let (rows, columns) = match numbers(BLACK_REPEAT, "BlackLevelRepeatDim")?[..] {
             [rows, columns] => (rows as usize, columns as usize),
             _ => (1, 1),
@@ -83,7 +83,7 @@ impl Levels {
         })
     }
 
-    /// Those that a decoder knows of a camera; none if they fill no pattern.
+    /// The levels that a decoder knows for a camera; none if they fill no pattern.
     pub fn of_camera(image: &RawImage) -> Option<Self> {
         let (levels, whites) = (&image.blacklevel, &image.whitelevel.0);
         let black = levels.as_vec().into_iter().map(f64::from).collect();
@@ -98,8 +98,7 @@ impl Levels {
         })
     }
 
-    /// The same with those of the command line, which hold for all sites, in their place.
-    ///
+    /// The same, replaced by levels of the command line where stated, which apply to all sites.
     /// # Errors
     /// [`crate::Error::Usage`] if a white level is not above the highest black level.
     pub fn with_stated(mut self, options: &ReadOptions) -> Result<Self> {
@@ -132,7 +131,7 @@ impl Levels {
     #[inline]
     fn of_pattern(&self, x: usize, y: usize, sample: usize) -> f64 {
         let (rows, columns, samples) = self.black.dim();
-        // before the origin the pattern goes on
+        // the pattern continues before the origin
         let column = (x + columns - self.origin.x % columns) % columns;
         let row = (y + rows - self.origin.y % rows) % rows;
         self.black[[row, column, sample.min(samples - 1)]]
@@ -166,11 +165,11 @@ impl Levels {
         levels.indexed_iter().map(at).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The black level of a sample in the mean over an area's sites that `counts` picks by column and row of
-    /// the area, and again after `side` columns or rows.
+    /// The mean black level of a sample over an area's sites that `counts` selects by column and row of the
+    /// area, with period `side` in both.
     ///
-    /// That of the pattern, of the columns and of the rows are means by themselves, of as few sites as
-    /// repeat: a photograph has tens of millions.
+    /// Pattern, columns and rows are averaged separately, over as few sites as repeat: a photograph has tens
+    /// of millions.
     pub fn mean_black(
         &self,
         area: Rect,
@@ -189,7 +188,7 @@ impl Levels {
     }
 }
 
-/// The mean of the levels of those sites that count.
+/// The mean level of the selected sites.
 fn mean_of(
     width: usize,
     height: usize,
@@ -205,8 +204,8 @@ fn mean_of(
     sum / count
 }
 
-/// A number for each sample of each site, from one for all, for each sample, for each site, or for each of
-/// both.
+/// A number for each sample of each site, from one for all, one per sample, one per site, or one per sample
+/// and site.
 fn spread(numbers: Vec<f64>, sites: usize, samples: usize, default: f64) -> Option<Vec<f64>> {
     let all = sites.checked_mul(samples).filter(|all| *all <= MAX_LEVELS)?;
     match numbers.len() {
@@ -236,7 +235,7 @@ mod tests {
             white: vec![1000.0],
         };
         let area = Rect::new(levels.origin, Dim2::new(12, 12));
-        // the sites of three colours of a Bayer mosaic
+        // the sites of each of three colours in a Bayer mosaic
         for colour in 0..3 {
             let counts = |x: usize, y: usize| x % 2 + y % 2 == colour;
             let all = mean_of(12, 12, counts, |x, y| levels.black(1 + x, 2 + y, 0));

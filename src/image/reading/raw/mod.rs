@@ -1,4 +1,4 @@
-//! A camera's RAW file: DNG, CR2, CR3, NEF, ARW, RAF and what else the crate rawler decodes.
+//! A camera's RAW file: DNG, CR2, CR3, NEF, ARW, RAF and others that the crate rawler decodes.
 
 mod dng;
 mod layout;
@@ -31,14 +31,14 @@ use crate::image::numbers::{ReadOptions, Transfer};
 use crate::image::photograph::{CameraNotes, Orientation, Photograph};
 use crate::{Error, Result};
 
-/// The same where a decoder does not say why it gave up.
+/// The same if a decoder gives no reason for failing.
 const UNREAD_OR_DAMAGED: &str = "this vfold does not read files of this kind, or the file is damaged: \
                                  copy it again, or convert it to linear TIFF";
 
 /// Reads a RAW file.
 ///
 /// # Errors
-/// As [`Photograph::open`]; [`Error::Usage`] if another curve than the linear one is asked for.
+/// As [`Photograph::open`]; [`Error::Usage`] if a curve other than the linear one is requested.
 pub(super) fn open(path: &Path, mut bytes: Vec<u8>, options: &ReadOptions) -> Result<Photograph> {
     if options.transfer == Transfer::Srgb {
         let problem = format!("{} is a RAW file, whose numbers are linear", path.display());
@@ -59,13 +59,13 @@ pub(super) fn open(path: &Path, mut bytes: Vec<u8>, options: &ReadOptions) -> Re
     }
 }
 
-/// What a decoder made of a file.
+/// The decoder's result.
 struct Decoded {
     image: RawImage,
     exif: Exif,
 }
 
-/// Decodes a file. The decoders stop at some files with a panic, which is reported like their other errors.
+/// Decodes a file. Decoders panic on some files, which is reported like their other errors.
 fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
     let failed = |message: &str| {
         let problem = format!("its decoder failed on it: {}", one_line(message));
@@ -100,8 +100,8 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
     Ok(decoded)
 }
 
-/// Panics are printed when they happen, also those that are caught: not while a file is decoded, on any
-/// thread.
+/// Suppresses the messages of panics, which are printed even if they are caught, while any thread decodes a
+/// file.
 fn without_panic_messages<T>(work: impl FnOnce() -> T) -> T {
     static QUIET: AtomicUsize = AtomicUsize::new(0);
     static HOOK: Once = Once::new();
@@ -124,7 +124,7 @@ fn panic_message(payload: &(dyn Any + Send)) -> &str {
     text.or_else(|| payload.downcast_ref::<&str>().copied()).unwrap_or("the decoder gave up")
 }
 
-/// Rows of three of a matrix that has three.
+/// The rows of a 3 x 3 matrix; none for other sizes.
 fn xyz_to_camera(matrix: &[f32]) -> Option<[[f64; 3]; 3]> {
     let nine: [f32; 9] = matrix.try_into().ok()?;
     Some(std::array::from_fn(|row| std::array::from_fn(|column| f64::from(nine[3 * row + column]))))

@@ -1,4 +1,4 @@
-//! Which RAW files are refused, and what is to be done about it.
+//! Which RAW files are refused, and what to do.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -8,11 +8,11 @@ use rawler::imgop::Dim2;
 use crate::image::reading::refused::{DAMAGED, MAX_BYTES, TOO_LARGE};
 use crate::{Error, Result, room};
 
-/// What to do with a file that only others read, or that needs what is not done here.
+/// Remedy for a file that only other programs read, or that needs unsupported operations.
 pub(super) const ELSEWHERE: &str =
     "convert it to linear TIFF with a program that does, or take the camera's own RAW file";
 
-/// Whether there is room for a sensor's numbers, and there are any.
+/// Checks that a sensor's numbers fit into memory and that there are any.
 pub(super) fn check_size(path: &Path, size: Dim2, samples: usize) -> Result<()> {
     let Dim2 { w, h } = size;
     let bytes = w.saturating_mul(h).saturating_mul(samples).saturating_mul(size_of::<f32>()) as u64;
@@ -25,7 +25,7 @@ pub(super) fn check_size(path: &Path, size: Dim2, samples: usize) -> Result<()> 
     room::ask(bytes, &path.display().to_string(), TOO_LARGE)
 }
 
-/// What only a DNG can be.
+/// An unsupported property, possible only in a DNG.
 pub(super) fn unread(path: &Path, what: &str) -> Error {
     Error::picture(path, format!("this vfold does not read DNG {what}"), ELSEWHERE)
 }

@@ -1,7 +1,7 @@
-//! What a sensor saw: light of each site between its black and white level.
+//! The light of each site of a sensor, between its black and white level.
 //!
-//! Nothing more is done to it: no white balance, no matrix, no demosaicing. The part of the sensor is the one
-//! that the camera recommends, so that coordinates are those of other programs.
+//! No further processing is applied: no white balance, no matrix, no demosaicing. The area is the one
+//! recommended by the camera, so that coordinates agree with other programs.
 
 use std::path::Path;
 
@@ -19,34 +19,34 @@ use crate::image::numbers::ReadOptions;
 use crate::image::photograph::{CameraNotes, Mosaic, Photograph, PhotographInfo, SensorInfo};
 use crate::{Error, Result};
 
-/// The numbers of a sensor and how they are to be understood.
+/// The numbers of a sensor and their interpretation.
 pub(super) struct Sensor {
     numbers: RawImageData,
-    /// Columns of the whole sensor.
+    /// Number of columns of the whole sensor.
     width: usize,
-    /// Numbers of a pixel.
+    /// Numbers per pixel.
     samples: usize,
     /// `16-bit` or `float`.
     kind: String,
     area: Rect,
-    /// The colour filters from the area's corner on; none if every site has all colours.
+    /// The colour filters, starting at the area's corner; none if every site has all colours.
     mosaic: Option<Mosaic>,
     levels: Levels,
-    /// What stored numbers stand for, by number; empty if for themselves.
+    /// Meaning of stored numbers, by number; empty if they are linear.
     linearization: Vec<f64>,
     opcodes: Opcodes,
 }
 
-/// What to do with a sensor that is not like others.
+/// Remedy for an unusual sensor.
 const CONVERT: &str = "convert the file to linear TIFF";
 
 impl Sensor {
-    /// The sensor of a decoded file that is no DNG.
+    /// The sensor of a decoded file other than DNG.
     ///
     /// # Errors
-    /// [`Error::Picture`] if its pixels have neither one of the colours red, green and blue, nor all three,
-    /// nor none, or the picture lies outside the sensor; [`Error::Usage`] if the white level is not above the
-    /// black level.
+    /// [`Error::Picture`] unless its pixels have one of the colours red, green and blue, all three, or none,
+    /// or if the picture lies outside the sensor; [`Error::Usage`] if the white level is not above the black
+    /// level.
     pub fn of_camera(path: &Path, image: RawImage, options: &ReadOptions) -> Result<Self> {
         let refused = |problem| Error::picture(path, problem, CONVERT);
         let area = area(&image).ok_or_else(|| refused("the picture lies outside the sensor"))?;
@@ -73,10 +73,10 @@ impl Sensor {
         .checked(path)
     }
 
-    /// The sensor of a DNG, of which the decoder unpacked the numbers.
+    /// The sensor of a DNG, whose numbers the decoder unpacked.
     ///
     /// # Errors
-    /// As [`Sensor::of_camera`]; [`Error::Picture`] also if the decoder found a picture of another size.
+    /// As [`Sensor::of_camera`]; [`Error::Picture`] also if the decoder returned a picture of another size.
     pub fn of_dng(path: &Path, image: RawImage, dng: Dng, options: &ReadOptions) -> Result<Self> {
         let Dng { size, samples, kind, area, mosaic, levels, linearization, opcodes, .. } = dng;
         if (image.dim(), image.cpp) != (size, samples) {
@@ -98,7 +98,7 @@ impl Sensor {
         Err(Error::picture(path, "its pixels have neither one number nor three", CONVERT))
     }
 
-    /// The photograph it took.
+    /// Its photograph.
     ///
     /// # Errors
     /// [`Error::Picture`] if it is smaller than 3 x 3 px.
@@ -116,8 +116,7 @@ impl Sensor {
         }
     }
 
-    /// Linear light of the area by row, column and channel, infinite where it is clipped, NaN where a site
-    /// saw nothing.
+    /// Linear light of the area by row, column and channel, infinite where clipped, NaN at defective sites.
     fn light<T: Copy + Into<f64> + Sync>(&self, data: &[T]) -> Array3<f32> {
         let Rect { p: corner, d: size } = self.area;
         let mut light = Array3::zeros((size.h, size.w, self.samples));
@@ -140,7 +139,7 @@ impl Sensor {
         light
     }
 
-    /// What a stored number stands for; NaN if the site saw nothing.
+    /// The linear value of a stored number; NaN at a defective site.
     #[inline]
     fn linear(&self, stored: f64) -> f64 {
         if !stored.is_finite() || self.opcodes.leaves_out(stored) {
@@ -148,7 +147,7 @@ impl Sensor {
         }
         match &self.linearization[..] {
             [] => stored,
-            // numbers beyond the table stand for its last
+            // numbers beyond the table map to its last entry
             table => table[(stored as usize).min(table.len() - 1)],
         }
     }
@@ -172,7 +171,7 @@ impl Sensor {
         }
     }
 
-    /// Of each channel the black level, in the mean over the area, and the white level.
+    /// For each channel, the mean black level over the area, and the white level.
     fn levels(&self) -> [Vec<f64>; 2] {
         let levels = &self.levels;
         let mean = |sample: usize, side: usize, counts: &dyn Fn(usize, usize) -> bool| {
@@ -191,7 +190,7 @@ impl Sensor {
     }
 }
 
-/// The recommended area, or else the one that sees light; none if it is not on the sensor.
+/// The recommended area, or else the one exposed to light; none if it is not on the sensor.
 fn area(image: &RawImage) -> Option<Rect> {
     let whole = Rect::new(Point::zero(), image.dim());
     let area = image.crop_area.or(image.active_area).unwrap_or(whole);

@@ -1,4 +1,4 @@
-//! What a RAW file says of place, time and light.
+//! Place, time and light according to a RAW file.
 
 use rawler::exif::{Exif, ExifGPS};
 use rawler::formats::tiff::Rational;
@@ -6,7 +6,7 @@ use rawler::formats::tiff::Rational;
 use crate::image::photograph::Taken;
 use crate::image::reading::taken::{by_clock as clock, local, other_light, place_deg, universal};
 
-/// What is missing or makes no sense is left out.
+/// Missing or implausible fields are omitted.
 pub(super) fn taken(exif: &Exif) -> Taken {
     let gps = exif.gps.as_ref();
     let by_clock = || local(exif.date_time_original.as_deref()?, exif.offset_time_original.as_deref()?);

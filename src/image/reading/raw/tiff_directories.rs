@@ -1,18 +1,18 @@
-//! The directories of TIFF files, with which most RAW files begin: what they say, and whether a decoder can
-//! read them.
+//! The directories of TIFF files, with which most RAW files begin: their contents, and whether they are safe
+//! for a decoder.
 //!
-//! A decoder makes room for what an entry claims before it looks for it, and asking for more memory than
-//! there is gives no error to catch: the program ends. A decoder that follows directories in a circle never
-//! ends.
+//! A decoder allocates memory for what an entry claims before looking for it, and an allocation beyond the
+//! available memory aborts the program without an error to catch. A decoder that follows circular directories
+//! never ends.
 
 use crate::image::reading::tiff::tags::{DIRECTORIES_MAX, ENTRY_BYTES, SUB_DIRECTORIES, value_bytes};
 
-/// Entries that lead to further directories: those within, EXIF and GPS.
+/// Entries that point to further directories: sub-directories, EXIF and GPS.
 const POINTERS: [u16; 3] = [SUB_DIRECTORIES, 34665, 34853];
-/// Entries that lead out of the file are rare.
+/// Largest number of entries that point outside the file.
 const ASTRAY_MAX: usize = 4;
 
-/// A TIFF file, whatever its mark.
+/// A TIFF file with any mark.
 #[derive(Clone, Copy)]
 pub(super) struct Tiff<'a> {
     file: &'a [u8],
@@ -30,11 +30,11 @@ struct Entry {
     tag: u16,
     kind: u16,
     count: u32,
-    /// Where its values are, or lead to.
+    /// Offset of its values, or of the pointer to them.
     values: usize,
 }
 
-/// Why no decoder should see this file; none if it may, or is no TIFF.
+/// Why no decoder should see this file; none if it is safe, or is no TIFF.
 pub(super) fn fault(file: &[u8]) -> Option<String> {
     let directories = Tiff::new(file)?.directories();
     if directories.len() > DIRECTORIES_MAX {
@@ -44,13 +44,13 @@ pub(super) fn fault(file: &[u8]) -> Option<String> {
 }
 
 impl<'a> Tiff<'a> {
-    /// None if the file is none.
+    /// None if the file is no TIFF.
     pub fn new(file: &'a [u8]) -> Option<Self> {
         let is_little = file.starts_with(b"II");
         (is_little || file.starts_with(b"MM")).then_some(Self { file, is_little })
     }
 
-    /// Its directories, the first one first; one more than may be if they have no end.
+    /// Its directories, starting with the first; one more than the limit if they are endless.
     pub fn directories(self) -> Vec<Directory<'a>> {
         let mut found = Vec::new();
         let mut waiting: Vec<u32> = self.u32(4).into_iter().collect();
@@ -73,7 +73,7 @@ impl<'a> Tiff<'a> {
         self.file
     }
 
-    /// Whether the small end of a number comes first.
+    /// Whether it is little-endian.
     pub fn is_little(self) -> bool {
         self.is_little
     }
@@ -93,7 +93,7 @@ impl<'a> Tiff<'a> {
         Some(if self.is_little { u64::from_le_bytes(bytes) } else { u64::from_be_bytes(bytes) })
     }
 
-    /// The number of a type at a place.
+    /// The number of this type at an offset.
     fn number(self, kind: u16, at: usize) -> Option<f64> {
         let signed = |at| self.u32(at).map(u32::cast_signed);
         Some(match kind {
@@ -111,7 +111,7 @@ impl<'a> Tiff<'a> {
         })
     }
 
-    /// The numbers of an entry of LONG.
+    /// The numbers of an entry of type LONG.
     fn longs(self, entry: &Entry) -> impl Iterator<Item = u32> {
         let first = if entry.count > 1 { self.u32(entry.values) } else { Some(entry.values as u32) };
         let place = move |n: usize| Some(first? as usize + 4 * n);
@@ -126,7 +126,7 @@ impl Entry {
 }
 
 impl<'a> Directory<'a> {
-    /// The numbers of a tag; none if it is not there, has none, or they are not in the file.
+    /// The numbers of a tag; none if it is absent or empty, or they are not in the file.
     pub fn numbers(&self, tag: u16) -> Option<Vec<f64>> {
         let entry = self.filled(tag)?;
         let first = self.first(&entry)?;
@@ -152,7 +152,7 @@ impl<'a> Directory<'a> {
         self.entry(tag).is_some()
     }
 
-    /// A tag's entry as it is stored.
+    /// A tag's entry as stored.
     pub fn stored(&self, tag: u16) -> Option<[u8; ENTRY_BYTES]> {
         let entry = self.entry(tag)?;
         self.tiff.file.get(entry.values - 8..)?.first_chunk().copied()
@@ -168,7 +168,7 @@ impl<'a> Directory<'a> {
         (astray > ASTRAY_MAX).then(|| "a directory leads out of the file".to_owned())
     }
 
-    /// The entry of a tag that has values, all in the file.
+    /// The entry of a tag with values, all in the file.
     fn filled(&self, tag: u16) -> Option<Entry> {
         self.entry(tag).filter(|entry| self.has(entry) && entry.count > 0)
     }
@@ -190,7 +190,7 @@ impl<'a> Directory<'a> {
         })
     }
 
-    /// Where the values of an entry begin: short ones stand in the entry.
+    /// Offset of an entry's values: short ones are in the entry itself.
     fn first(&self, entry: &Entry) -> Option<usize> {
         if entry.bytes() > 4 { self.tiff.u32(entry.values).map(|at| at as usize) } else { Some(entry.values) }
     }
@@ -201,7 +201,7 @@ impl<'a> Directory<'a> {
         place.is_none_or(|place| u64::from(place) + entry.bytes() <= self.tiff.file.len() as u64)
     }
 
-    /// The directory after this one.
+    /// The next directory.
     fn next(&self) -> Option<u32> {
         let count = usize::from(self.tiff.u16(self.at)?);
         self.tiff.u32(self.at + 2 + ENTRY_BYTES * count).filter(|next| *next != 0)
@@ -212,7 +212,7 @@ impl<'a> Directory<'a> {
 mod tests {
     use super::*;
 
-    /// A directory of one entry, and what comes after it.
+    /// A directory of one entry, followed by `after`.
     fn tiff(tag: u16, kind: u16, count: u32, value: u32, after: &[u8]) -> Vec<u8> {
         let mut bytes = b"II*\0\x08\0\0\0\x01\0".to_vec();
         bytes.extend(tag.to_le_bytes().into_iter().chain(kind.to_le_bytes()));
@@ -243,6 +243,6 @@ mod tests {
     fn what_is_no_directory_is_passed_over() {
         assert_eq!(fault(b"II*\0\xff\xff\xff\xff"), None);
         assert_eq!(fault(b"FUJI"), None);
-        assert_eq!(fault(&tiff(256, 4, 2, 1 << 30, &[])), None); // leads out of the file, alone
+        assert_eq!(fault(&tiff(256, 4, 2, 1 << 30, &[])), None); // only one points outside the file
     }
 }

@@ -1,4 +1,4 @@
-//! A TIFF file under another directory.
+//! A TIFF file presented with another directory.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -12,22 +12,22 @@ use super::written::{long, written};
 
 const HEAD_BYTES: u64 = 8;
 
-/// A file of which the first bytes lead to a directory that seems to lie behind its end. No strip or tile
-/// reaches there.
+/// A file whose first bytes point to a directory that appears to lie beyond its end, where no strip or tile
+/// reaches.
 pub(super) struct Described<R> {
     file: R,
     head: [u8; HEAD_BYTES as usize],
     directory: Vec<u8>,
-    /// Where the directory begins.
+    /// Offset of the directory.
     end: u64,
     at: u64,
 }
 
 impl<R: Read + Seek> Described<R> {
-    /// A file of so many bytes as grey pixels of so many samples side by side, in the strips or tiles of
-    /// `chunks`. Tiles are whole: the decoder of LZW fails where one is read row by row.
+    /// A file of this length as grey pixels of a number of interleaved samples, in the strips or tiles of
+    /// `chunks`. Tiles are complete: the decoder of LZW fails if one is read row by row.
     pub fn new(file: R, length: u64, layout: &Layout, chunks: &[(u64, u64)]) -> Self {
-        // its first byte is read after a seek alone, so that a strip cut short ends where the file does
+        // its first byte is read only after a seek, so that a strip cut short ends where the file does
         let end = length + 1;
         let directory = directory(layout, chunks, end);
         let mark = if layout.is_little { *b"II*\0" } else { *b"MM\0*" };
@@ -70,7 +70,7 @@ impl<R: Read + Seek> Seek for Described<R> {
     }
 }
 
-/// A directory that begins at `end`.
+/// A directory at offset `end`.
 fn directory(layout: &Layout, chunks: &[(u64, u64)], end: u64) -> Vec<u8> {
     let (offsets, counts): (Vec<u64>, Vec<u64>) = chunks.iter().copied().unzip();
     let number = |tag: u16, number: u64| (tag, LONG, vec![number]);

@@ -1,4 +1,4 @@
-//! Directories of a TIFF file: what they say, tag by tag.
+//! Contents of a TIFF file's directories, tag by tag.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -40,7 +40,7 @@ const READ: [u16; 25] = [
     DNG_VERSION,
 ];
 
-/// What a directory says.
+/// The contents of a directory.
 #[derive(Default)]
 pub(super) struct Directory {
     pub is_little: bool,
@@ -49,14 +49,14 @@ pub(super) struct Directory {
     next: u32,
 }
 
-/// The values of a tag; no bytes if they lie beyond the end of the file, or there would be more of all tags
-/// together than the file has.
+/// The values of a tag; empty if they lie beyond the end of the file, or if those of all tags together would
+/// exceed it.
 struct Values {
     kind: u16,
     bytes: Vec<u8>,
 }
 
-/// The directories of a file of so many bytes, of which the first at least can be read.
+/// The directories of a file of this length; at least the first must be readable.
 pub(super) fn read_all(file: &mut (impl Read + Seek), length: u64) -> io::Result<Vec<Directory>> {
     let mut head = [0; 8];
     file.rewind()?;
@@ -81,7 +81,7 @@ pub(super) fn read_all(file: &mut (impl Read + Seek), length: u64) -> io::Result
 }
 
 impl Directory {
-    /// Of a tag that stands there twice the first counts.
+    /// If a tag occurs twice, the first counts.
     fn read(
         file: &mut (impl Read + Seek),
         (length, taken): (u64, &mut u64),
@@ -123,7 +123,7 @@ impl Directory {
         self.values.get(&tag).map(|values| values.bytes.as_slice())
     }
 
-    /// The whole numbers of a tag.
+    /// The integers of a tag.
     pub fn numbers(&self, tag: u16) -> Option<Vec<u64>> {
         let Values { kind, bytes } = self.values.get(&tag)?;
         let numbers: Vec<u64> = match *kind {
@@ -137,12 +137,12 @@ impl Directory {
         Some(numbers).filter(|numbers| !numbers.is_empty())
     }
 
-    /// The first whole number of a tag.
+    /// The first integer of a tag.
     pub fn number(&self, tag: u16) -> Option<u64> {
         self.numbers(tag)?.first().copied()
     }
 
-    /// The numbers of a tag that may have fractions.
+    /// The numbers of a tag of a fractional type.
     pub fn reals(&self, tag: u16) -> Option<Vec<f64>> {
         let Values { kind, bytes } = self.values.get(&tag)?;
         match *kind {
@@ -166,8 +166,8 @@ impl Directory {
     }
 }
 
-/// The bytes of so many values of a kind, which lie in the entry itself if there is room. `taken` counts
-/// those that do not: entries may share their values, and a small file could claim any number of them.
+/// The bytes of a number of values of one type, which are in the entry itself if they fit. `taken` counts
+/// those that are not: entries may share their values, so a small file could claim any number of them.
 fn bytes(
     file: &mut (impl Read + Seek),
     (length, taken): (u64, &mut u64),
@@ -198,7 +198,7 @@ fn u32_of(is_little: bool, bytes: [u8; 4]) -> u32 {
     if is_little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) }
 }
 
-/// A little-endian file of directories with the given entries each: tag, type, count, value.
+/// A little-endian file of directories with these entries each: tag, type, count, value.
 #[cfg(test)]
 pub(super) fn file(directories: &[&[(u16, u16, u32, u32)]]) -> Vec<u8> {
     let mut bytes = b"II*\0\x08\0\0\0".to_vec();

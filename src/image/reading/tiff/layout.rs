@@ -1,4 +1,4 @@
-//! How the samples of a page lie in its file, and why they cannot be read.
+//! The layout of a page's samples in its file, and why it cannot be read.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use super::tags::{
 use crate::image::reading::refused::{MAX_SIDE, damaged, inks};
 use crate::{Error, Result};
 
-/// What a sample is.
+/// The type of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     U8,
@@ -24,7 +24,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Bytes of a sample as it is stored.
+    /// Bytes per sample as stored.
     pub fn stored(self) -> usize {
         match self {
             Self::U8 => 1,
@@ -39,36 +39,36 @@ impl Kind {
     }
 }
 
-/// How a page is cut up.
+/// The division of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
-    /// Into strips of so many rows.
+    /// Into strips of this many rows.
     Strips(u64),
-    /// Into tiles of such a width and height, px.
+    /// Into tiles of this width and height, px.
     Tiles(u64, u64),
 }
 
-/// How the samples of a page lie in its file.
+/// The layout of a page's samples in its file.
 pub(super) struct Layout {
     pub is_little: bool,
     pub width: u32,
     pub height: u32,
     pub kind: Kind,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub samples: usize,
-    /// Colours a pixel, 1 or 3, which come first.
+    /// Colours per pixel, 1 or 3, which come first.
     colours: usize,
     /// The sample that is alpha.
     alpha: Option<usize>,
     /// Whether 0 is white.
     pub is_inverted: bool,
-    /// Whether each sample has a plane of its own.
+    /// Whether each sample has its own plane.
     pub is_planar: bool,
     pub cut: Cut,
     pub compression: u64,
     pub predictor: u64,
     pub jpeg_tables: Option<Vec<u8>>,
-    /// Where strips or tiles lie, plane by plane, and how many bytes they have.
+    /// Offsets and lengths of strips or tiles, plane by plane.
     pub chunks: Vec<(u64, u64)>,
 }
 
@@ -78,7 +78,7 @@ const JPEG: u64 = 7;
 const DEFLATE: u64 = 8;
 const PACK_BITS: u64 = 32773;
 const OLD_DEFLATE: u64 = 32946;
-/// Compressions that nobody undoes here, by their names.
+/// Unsupported compressions, by name.
 const UNREAD_COMPRESSIONS: [(u64, &str); 11] = [
     (2, "fax's (CCITT RLE)"),
     (3, "fax's (CCITT group 3)"),
@@ -95,7 +95,7 @@ const UNREAD_COMPRESSIONS: [(u64, &str); 11] = [
 
 impl Layout {
     /// # Errors
-    /// [`Error::Picture`] if it contradicts itself, or says what is not read here.
+    /// [`Error::Picture`] if it contradicts itself, or has unsupported properties.
     pub fn of(path: &Path, page: &Directory, length: u64) -> Result<Self> {
         let (Some(width), Some(height)) = (page.number(WIDTH), page.number(HEIGHT)) else {
             return Err(damaged(path, "it does not say how large its picture is"));
@@ -142,12 +142,12 @@ impl Layout {
         Ok(Self { chunks, ..layout })
     }
 
-    /// The colours and alpha that are wanted, by their places among a pixel's samples.
+    /// Indices of the colours and alpha to be read among a pixel's samples.
     pub fn wanted(&self) -> impl Iterator<Item = usize> {
         (0..self.colours).chain(self.alpha)
     }
 
-    /// Whether the samples of the file are those of the picture, byte by byte.
+    /// Whether the file's samples are those of the picture, byte by byte.
     pub fn is_as_wanted(&self) -> bool {
         !self.is_planar
             && matches!(self.cut, Cut::Strips(_))
@@ -155,7 +155,7 @@ impl Layout {
             && matches!(self.kind, Kind::U8 | Kind::U16 | Kind::F32)
     }
 
-    /// Colours, alpha and depth of the picture that is made of it.
+    /// Colours, alpha and depth of the resulting picture.
     pub fn color_type(&self) -> ColorType {
         match (self.kind, self.colours, self.alpha.is_some()) {
             (Kind::U8, 1, false) => ColorType::L8,
@@ -171,7 +171,7 @@ impl Layout {
         }
     }
 
-    /// Width and height of what strips or tiles hold: tiles reach beyond the picture.
+    /// Width and height covered by strips or tiles: tiles extend beyond the picture.
     pub fn size_with_margins(&self) -> (u64, u64) {
         let (width, height) = (u64::from(self.width), u64::from(self.height));
         match self.cut {
@@ -184,7 +184,7 @@ impl Layout {
         u64::from(self.width) * u64::from(self.height)
     }
 
-    /// Bytes of the picture that is made of it.
+    /// Bytes of the resulting picture.
     pub fn bytes(&self) -> u64 {
         self.pixels() * u64::from(self.color_type().bytes_per_pixel())
     }
@@ -194,7 +194,7 @@ impl Layout {
         self.bytes().max(self.pixels().saturating_mul((self.samples * self.kind.stored()) as u64))
     }
 
-    /// Bytes of a strip or tile that is decoded beside the picture before its samples are picked.
+    /// Bytes of a strip or tile decoded into a separate buffer before its samples are selected.
     pub fn other_bytes(&self) -> u64 {
         let rows = match self.cut {
             Cut::Strips(rows) => rows.min(self.height.into()),
@@ -203,12 +203,12 @@ impl Layout {
         if self.is_as_wanted() { 0 } else { self.row_bytes().saturating_mul(rows) }
     }
 
-    /// Samples a pixel in a strip or tile.
+    /// Samples per pixel in a strip or tile.
     pub fn samples_together(&self) -> usize {
         if self.is_planar { 1 } else { self.samples }
     }
 
-    /// Bytes of a row of a strip or tile.
+    /// Bytes per row of a strip or tile.
     fn row_bytes(&self) -> u64 {
         let columns = match self.cut {
             Cut::Strips(_) => self.width.into(),
@@ -217,7 +217,7 @@ impl Layout {
         columns.saturating_mul((self.samples_together() * self.kind.stored()) as u64)
     }
 
-    /// How many strips or tiles a plane has, and how many rows of it the nth has.
+    /// Number of strips or tiles in a plane, and rows in the nth of them.
     fn plane(&self) -> (u64, impl Fn(u64) -> u64) {
         let height = u64::from(self.height);
         let (across, rows) = match self.cut {
@@ -230,7 +230,7 @@ impl Layout {
         (across * height.div_ceil(rows), rows_of)
     }
 
-    /// Where the strips or tiles lie, each wholly within a file of so many bytes.
+    /// Offsets and lengths of strips or tiles, each entirely within a file of this length.
     fn find_chunks(&self, path: &Path, page: &Directory, length: u64) -> Result<Vec<(u64, u64)>> {
         let (offsets, counts, what) = match self.cut {
             Cut::Strips(_) => (STRIP_OFFSETS, STRIP_BYTE_COUNTS, "strips"),
@@ -241,7 +241,7 @@ impl Layout {
         let bytes_of = |n: u64| self.row_bytes().saturating_mul(rows_of(n));
         let offsets = page.numbers(offsets).unwrap_or_default();
         let counts = match page.numbers(counts) {
-            // some old writers leave them out
+            // some old writers omit them
             None if self.compression == NONE => (0..wanted.min(offsets.len() as u64)).map(bytes_of).collect(),
             counts => counts.unwrap_or_default(),
         };
@@ -264,7 +264,7 @@ impl Layout {
     }
 }
 
-/// How many colours there are, and whether 0 is white.
+/// Number of colours, and whether 0 is white.
 fn colours(path: &Path, page: &Directory) -> Result<(usize, bool)> {
     let what = match page.number(PHOTOMETRIC) {
         Some(0) => return Ok((1, true)),
@@ -285,7 +285,7 @@ fn colours(path: &Path, page: &Directory) -> Result<(usize, bool)> {
     Err(unread(path, what, "save it as RGB"))
 }
 
-/// What all samples are.
+/// The type common to all samples.
 fn kind(path: &Path, page: &Directory) -> Result<Kind> {
     const INTEGERS: u64 = 1;
     const SIGNED: u64 = 2;
@@ -316,7 +316,7 @@ fn kind(path: &Path, page: &Directory) -> Result<Kind> {
     }
 }
 
-/// The sample that is alpha: as `ExtraSamples` says, or, if it says nothing, a single one beside the colours.
+/// The alpha sample: as `ExtraSamples` states, or by default the only sample other than the colours.
 fn alpha(path: &Path, page: &Directory, samples: usize, colours: usize) -> Result<Option<usize>> {
     const ASSOCIATED: u64 = 1;
     const UNASSOCIATED: u64 = 2;
@@ -351,7 +351,7 @@ fn compression(path: &Path, page: &Directory) -> Result<u64> {
     Err(unread(path, &format!("the compression {name}"), REMEDY))
 }
 
-/// What was done to the samples before they were compressed; it means nothing for other compressions.
+/// The predictor applied before compression; meaningless for other compressions.
 fn predictor(path: &Path, page: &Directory, (compression, kind): (u64, Kind)) -> Result<u64> {
     const DIFFERENCES: u64 = 2;
     const OF_FLOATS: u64 = 3;
@@ -377,7 +377,7 @@ fn cut(path: &Path, page: &Directory, height: u64) -> Result<Cut> {
     }
 }
 
-/// Of what a whole file may have and is not read here.
+/// For an unsupported property of an undamaged file.
 fn unread(path: &Path, what: &str, remedy: &str) -> Error {
     Error::picture(path, format!("this vfold does not read TIFF with {what}"), remedy)
 }

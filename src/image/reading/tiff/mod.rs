@@ -1,9 +1,9 @@
-//! TIFF files: which page is meant, how its samples lie, and what it says of them.
+//! TIFF files: selection of a page, layout of its samples, and statements on them.
 //!
-//! The crate `tiff` decodes strips and tiles whose samples lie side by side. A file that keeps planes apart,
-//! or has more samples a pixel than colours and alpha, is shown to it as one that does neither, by a
-//! directory made here; what is wanted is picked from what comes out. What nobody decodes is refused by its
-//! name: only a file that contradicts itself is damaged.
+//! The crate `tiff` decodes strips and tiles with interleaved samples. A file with separate planes, or with
+//! more samples per pixel than colours and alpha, is presented to it as grey samples by a directory made
+//! here, and the required samples are selected from the result. Unsupported features are refused by name;
+//! only a file that contradicts itself is reported as damaged.
 
 mod described;
 mod directory;
@@ -33,33 +33,33 @@ pub(super) struct Tiff {
 }
 
 impl Tiff {
-    /// Reads the directories of a file of so many bytes.
+    /// Reads the directories of a file of this length.
     pub fn open(file: &mut (impl BufRead + Seek), length: u64) -> io::Result<Self> {
         let directories = directory::read_all(file, length)?;
         Ok(Self { pages: Pages::new(directories), length })
     }
 
-    /// Whether it holds what a sensor saw, and at best a preview for other programs.
+    /// Whether it contains sensor data, and at best a preview for other programs.
     pub fn is_raw(&self) -> bool {
         self.pages.is_raw()
     }
 
-    /// The number of the page that is meant, from 0.
+    /// The number of the selected page, from 0.
     pub fn page(&self) -> usize {
         self.pages.meant
     }
 
-    /// What is to be known of the pages that are not read.
+    /// A note on pages that are not read.
     pub fn note(&self) -> Option<String> {
         self.pages.note()
     }
 
-    /// What the page that is meant says of its numbers.
+    /// Statements of the selected page on its numbers.
     pub fn statements(&self) -> Vec<Statement> {
         statements::statements(self.pages.directory())
     }
 
-    /// The pixels of the page that is meant.
+    /// The pixels of the selected page.
     ///
     /// # Errors
     /// [`Error::Picture`] with the reason if they cannot be read.

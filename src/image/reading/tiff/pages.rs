@@ -1,4 +1,4 @@
-//! Which page of a TIFF file is meant.
+//! Selects the page of a TIFF file.
 
 use std::path::Path;
 
@@ -8,27 +8,27 @@ use crate::{Error, Result};
 
 const MOSAIC: u64 = 32803;
 
-/// The pages of a file, one at least.
+/// The pages of a file, at least one.
 pub(super) struct Pages {
     directories: Vec<Directory>,
-    /// Where the one that is meant stands.
+    /// Index of the selected page.
     pub meant: usize,
 }
 
 impl Pages {
-    /// The first is meant, or the first after it that is no copy of reduced size.
+    /// Selects the first page that is not a copy of reduced size; the first page if all are.
     pub fn new(directories: Vec<Directory>) -> Self {
         let meant = directories.iter().position(is_full).unwrap_or(0);
         Self { directories, meant }
     }
 
-    /// The directory of the page that is meant.
+    /// The directory of the selected page.
     pub fn directory(&self) -> &Directory {
         &self.directories[self.meant]
     }
 
-    /// Whether the first directory is that of a DNG, of a mosaic, or of a preview without its picture behind
-    /// it: then the picture itself is the sensor's, as in NEF and ARW.
+    /// Whether the first directory is that of a DNG, of a mosaic, or of a preview that no full picture
+    /// follows: then the picture itself is the sensor's, as in NEF and ARW.
     pub fn is_raw(&self) -> bool {
         let first = &self.directories[0];
         let is_preview =
@@ -36,14 +36,14 @@ impl Pages {
         first.has(DNG_VERSION) || first.number(PHOTOMETRIC) == Some(MOSAIC) || is_preview
     }
 
-    /// What is to be known of other pages of full size.
+    /// A note on other pages of full size.
     pub fn note(&self) -> Option<String> {
         let full = self.directories.iter().filter(|directory| is_full(directory)).count();
         (full > 1).then(|| format!("TIFF: it has {full} pages, of which the first is read"))
     }
 
     /// # Errors
-    /// [`Error::Picture`] if the page that is meant may be a small copy of another, and does not say so.
+    /// [`Error::Picture`] if the selected page may be an undeclared small copy of another.
     pub fn check(&self, path: &Path) -> Result<()> {
         let size = |page: &Directory| Some([page.number(WIDTH)?, page.number(HEIGHT)?]);
         let Some([width, height]) = size(self.directory()) else { return Ok(()) };
@@ -56,7 +56,7 @@ impl Pages {
     }
 }
 
-/// Whether a directory is that of a picture of full size.
+/// Whether a directory is that of a full-size picture.
 fn is_full(directory: &Directory) -> bool {
     const REDUCED_OR_MASK: u64 = 0b101;
     directory.number(NEW_SUBFILE_TYPE).unwrap_or(0) & REDUCED_OR_MASK == 0

@@ -12,11 +12,11 @@ use super::described::Described;
 use super::layout::{Kind, Layout};
 use crate::image::reading::refused::MAX_BYTES;
 
-/// The pixels of a page, to be decoded to where they stay.
+/// The pixels of a page, to be decoded in place.
 pub(super) struct Pixels<'a, R> {
     pub file: &'a mut R,
     pub layout: &'a Layout,
-    /// Bytes of the file.
+    /// Length of the file, bytes.
     pub length: u64,
 }
 
@@ -59,7 +59,7 @@ impl<R: BufRead + Seek> Pixels<'_, R> {
         Ok(())
     }
 
-    /// A decoder of some of the strips or tiles.
+    /// A decoder for some of the strips or tiles.
     fn decoder(&mut self, chunks: &[(u64, u64)]) -> TiffResult<Decoder<Described<&mut R>>> {
         let mut limits = Limits::unlimited();
         limits.intermediate_buffer_size = MAX_BYTES as usize;
@@ -67,8 +67,8 @@ impl<R: BufRead + Seek> Pixels<'_, R> {
         Ok(Decoder::new(described)?.with_limits(limits))
     }
 
-    /// Decodes some of the strips or tiles, and brings each sample of `picked`, by its place among those that
-    /// lie together, to its place in a pixel.
+    /// Decodes some of the strips or tiles, and copies each sample of `picked` from its index among the
+    /// interleaved ones to its index in a pixel.
     fn pick(
         &mut self,
         chunks: &[(u64, u64)],
@@ -107,7 +107,7 @@ impl<R: BufRead + Seek> Pixels<'_, R> {
     }
 }
 
-/// Brings a sample from its place in a stored pixel to its place in another.
+/// Copies a sample from its index in a stored pixel to its index in another.
 #[inline]
 fn put(kind: Kind, from: &[u8], to: &mut [u8], (sample, place): (usize, usize)) {
     let stored = &from[sample * kind.stored()..][..kind.stored()];
@@ -123,7 +123,7 @@ fn put(kind: Kind, from: &[u8], to: &mut [u8], (sample, place): (usize, usize)) 
     }
 }
 
-/// An error of the one decoder as one of the other.
+/// Converts an error of one decoder to that of the other.
 fn as_of_image(error: TiffError) -> ImageError {
     match error {
         TiffError::IoError(error) => ImageError::IoError(error),

@@ -1,4 +1,4 @@
-//! What a directory says of its page's numbers.
+//! Statements of a directory on its page's numbers.
 
 use super::directory::Directory;
 use super::tags::{PRIMARIES, PROFILE, TRANSFER_FUNCTION, WHITE_POINT};
@@ -21,8 +21,8 @@ pub(super) fn statements(page: &Directory) -> Vec<Statement> {
     [profile, curve, colours].into_iter().flatten().collect()
 }
 
-/// The curve of which one table, or one for each of three colours, says where every stored number stands
-/// between no light and white.
+/// The curve by which one table, or one for each of three colours, maps stored numbers to light between black
+/// and white.
 fn transfer(page: &Directory) -> Option<Transfer> {
     let tables: Vec<f64> =
         page.numbers(TRANSFER_FUNCTION)?.into_iter().map(|light| light as f64 / 65535.0).collect();
@@ -38,7 +38,7 @@ fn transfer(page: &Directory) -> Option<Transfer> {
     others.iter().all(|other| other == first).then_some(*first)
 }
 
-/// Whether it says of its colours or its white that they are not sRGB's.
+/// Whether it states primaries or a white other than sRGB's.
 fn has_other_primaries(page: &Directory) -> bool {
     let [red, green, blue, white] = SRGB;
     let pairs = |tag: u16, count: usize, otherwise: &[[f64; 2]]| match page.reals(tag) {
@@ -56,7 +56,7 @@ mod tests {
     use super::super::tags::{RATIONAL, SHORT};
     use super::*;
 
-    /// What a page of one tag says, whose values are these bytes.
+    /// The statements of a page with one tag, whose values are these bytes.
     fn of(tag: u16, kind: u16, count: u32, bytes: &[u8]) -> Vec<Statement> {
         let mut whole = file(&[&[(tag, kind, count, 26)]]);
         assert_eq!(whole.len(), 26);

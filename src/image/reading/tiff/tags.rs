@@ -1,6 +1,6 @@
-//! Tags of TIFF's directories, types of their values, and how much there may be.
+//! Tags of TIFF directories, types of their values, and limits.
 //!
-//! Those that DNG adds stand where they are read.
+//! DNG's tags are defined where they are read.
 
 pub const NEW_SUBFILE_TYPE: u16 = 254;
 pub const WIDTH: u16 = 256;
@@ -38,14 +38,14 @@ pub const UNDEFINED: u16 = 7;
 pub const FLOAT: u16 = 11;
 pub const DOUBLE: u16 = 12;
 
-/// Bytes of an entry of a directory.
+/// Bytes per entry of a directory.
 pub const ENTRY_BYTES: usize = 12;
-/// More directories than a camera or a file of photographs has; a chain of them may lead back to itself.
+/// More directories than cameras or photographs have; a chain of them may be circular.
 pub const DIRECTORIES_MAX: usize = 64;
 
-/// Bytes of a value of a type; of an unknown one, one.
+/// Bytes per value of a type; 1 for an unknown type.
 pub fn value_bytes(kind: u16) -> u64 {
-    /// By type from 1 on.
+    /// By type, from 1 on.
     const SIZES: [u64; 13] = [1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4];
     *SIZES.get(usize::from(kind).wrapping_sub(1)).unwrap_or(&1)
 }

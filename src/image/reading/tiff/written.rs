@@ -1,9 +1,9 @@
-//! A directory as it stands in a file.
+//! A directory in the form of a file.
 
 use super::tags::{ENTRY_BYTES, LONG, SHORT};
 
-/// A directory that begins at `at`, of entries by tag, type and numbers, and of such as stand in another
-/// directory of the file by tag and bytes; values that do not fit into their entries are behind it.
+/// A directory at offset `at`, from entries by tag, type and numbers, and from entries copied from another
+/// directory of the file, by tag and bytes; values that do not fit into their entries follow it.
 pub(in crate::image::reading) fn written(
     is_little: bool,
     entries: &[(u16, u16, Vec<u64>)],
@@ -42,7 +42,7 @@ fn short(is_little: bool, number: u64) -> [u8; 2] {
     if is_little { (number as u16).to_le_bytes() } else { (number as u16).to_be_bytes() }
 }
 
-/// The four bytes of a number, such as the place of a directory.
+/// The four bytes of a number, such as the offset of a directory.
 pub(in crate::image::reading) fn long(is_little: bool, number: u64) -> [u8; 4] {
     if is_little { (number as u32).to_le_bytes() } else { (number as u32).to_be_bytes() }
 }
@@ -72,7 +72,7 @@ mod tests {
             assert_eq!(read[0].number(HEIGHT), Some(70_000));
             assert_eq!(read[0].numbers(STRIP_OFFSETS), Some(vec![70_000, 8]));
             assert_eq!(read[0].bytes(PROFILE), Some(&[7; 5][..]));
-            // decoders may search by halves
+            // decoders may use binary search
             let tags = directory[2..].chunks_exact(ENTRY_BYTES).take(4).map(|entry| [entry[0], entry[1]]);
             let sorted = [WIDTH, HEIGHT, STRIP_OFFSETS, PROFILE].map(|tag| short(is_little, tag.into()));
             assert!(tags.eq(sorted));

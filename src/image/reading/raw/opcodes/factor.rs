@@ -1,4 +1,4 @@
-//! What multiplies light, and where.
+//! Factors by which light is multiplied, as functions of position.
 
 use std::ops::Range;
 
@@ -9,25 +9,25 @@ use rayon::prelude::*;
 use super::parameters::Parameters;
 use crate::image::photograph::Mosaic;
 
-/// The sites that an opcode is for.
+/// The sites to which an opcode applies.
 pub(super) struct Area {
     pub rows: Range<usize>,
     pub columns: Range<usize>,
     pub planes: Range<usize>,
-    /// From row to row and from column to column.
+    /// Steps between rows and between columns.
     pub pitch: [usize; 2],
 }
 
 pub(super) enum Factor {
     Map(GainMap),
-    /// One for each row of the area,
+    /// One for each row of the area.
     Rows(Vec<f32>),
-    /// or for each of its columns.
+    /// One for each of its columns.
     Columns(Vec<f32>),
     Radial(Radial),
 }
 
-/// Gains at points of a grid, in parts of the picture's height and width; between them by two straight lines.
+/// Gains at points of a grid, in fractions of the picture's height and width, interpolated bilinearly.
 pub(super) struct GainMap {
     /// By row, column and plane.
     gains: Array3<f32>,
@@ -37,16 +37,16 @@ pub(super) struct GainMap {
     size: [f64; 2],
 }
 
-/// A polynomial of the square of the distance from the lens's axis, 1 in the farthest corner.
+/// A polynomial in the squared distance from the optical axis, relative to the farthest corner.
 pub(super) struct Radial {
     coefficients: [f64; 5],
-    /// Row and column of the axis.
+    /// Row and column of the optical axis.
     centre: [f64; 2],
     farthest_squared: f64,
 }
 
 impl Area {
-    /// None, as of all here, if the parameters make no sense.
+    /// None, as everywhere here, if the parameters are inconsistent.
     pub fn read(of: &mut Parameters) -> Option<Self> {
         let [top, left, bottom, right] = [of.size()?, of.size()?, of.size()?, of.size()?];
         let [plane, planes, row_pitch, column_pitch] = [of.size()?, of.size()?, of.size()?, of.size()?];
@@ -69,7 +69,7 @@ impl Area {
 }
 
 impl Factor {
-    /// Of a row and column of the area.
+    /// The factor at a row and column of the area.
     fn at(&self, area: &Area, [row, column]: [usize; 2], plane: usize) -> f64 {
         match self {
             Self::Map(map) => map.at(row, column, plane),
@@ -88,7 +88,7 @@ impl GainMap {
         let planes = of.size()?;
         let gains = of.gains(points[0].checked_mul(points[1])?.checked_mul(planes)?)?;
         let gains = Array3::from_shape_vec((points[0], points[1], planes), gains).ok()?;
-        // of a single point neither says anything
+        // the spacing of a single point is meaningless
         let makes_sense = !gains.is_empty() && (0..2).all(|axis| points[axis] == 1 || spacing[axis] > 0.0);
         makes_sense.then(|| Self { gains, origin, spacing, size: [active.d.h as f64, active.d.w as f64] })
     }
@@ -105,7 +105,7 @@ impl GainMap {
         (1.0 - down) * along(above) + down * along(above + 1)
     }
 
-    /// The point of the grid before a pixel's middle, and how far that is behind it; beyond the grid, its
+    /// The grid point before a pixel's centre, and the fraction of a step beyond it; outside the grid, its
     /// edge.
     fn place(&self, axis: usize, pixel: usize) -> (usize, f64) {
         let last = self.gains.shape()[axis] - 1;
@@ -119,9 +119,9 @@ impl GainMap {
 }
 
 impl Radial {
-    /// None also if light cannot be multiplied by it somewhere.
+    /// None also if it is not a valid factor everywhere.
     pub fn read(of: &mut Parameters, active: Rect) -> Option<Self> {
-        /// How closely it is looked at: a lens's is smooth.
+        /// Resolution of this check: a lens's factor is smooth.
         const STEPS: u32 = 1000;
         let coefficients = [of.double()?, of.double()?, of.double()?, of.double()?, of.double()?];
         let [height, width] = [active.d.h as f64, active.d.w as f64];
@@ -142,14 +142,14 @@ impl Radial {
         self.factor(squared)
     }
 
-    /// At the square of a distance, in parts of the farthest's.
+    /// At a squared distance relative to the farthest.
     fn factor(&self, squared: f64) -> f64 {
         1.0 + squared * self.coefficients.iter().rev().fold(0.0, |sum, k| sum * squared + k)
     }
 }
 
-/// Multiplies an area's light; `top` and `left` are where the light begins, counted as the area is. Of a
-/// mosaic each site is of its colour's plane, if there is one; else of the first.
+/// Multiplies an area's light; `top` and `left` are the first row and column of the light in the area's
+/// coordinates. In a mosaic each site belongs to its colour's plane, if stated; otherwise to the first.
 pub(super) fn multiply(
     light: &mut Array3<f32>,
     [top, left]: [usize; 2],

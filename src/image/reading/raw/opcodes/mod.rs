@@ -1,8 +1,8 @@
-//! DNG's lists of what is still to be done to a sensor's numbers.
+//! DNG's lists of operations to be applied to a sensor's numbers.
 //!
-//! What multiplies light, or names pixels that saw none, is done, also where the file leaves it to the
-//! reader. Curves are not: such a file is refused. So is one that insists on anything else; what it leaves to
-//! the reader beyond that, such as the distortion of the lens, stays undone.
+//! Factors of the light and lists of defective sites are applied, even if optional. Curves are not supported:
+//! such a file is refused, as is one with any other mandatory opcode. Other optional ones, such as lens
+//! distortion, are skipped.
 //!
 //! # Source
 //! Adobe, *Digital Negative Specification* 1.7, chapter 7.
@@ -23,7 +23,7 @@ use super::tiff_directories::Directory;
 use crate::image::photograph::Mosaic;
 use crate::{Error, Result};
 
-/// `OpcodeList1` is for numbers as stored, the second for light, the third for light after demosaicing.
+/// `OpcodeList1` applies to numbers as stored, the second to light, the third to light after demosaicing.
 const LISTS: [u16; 3] = [51008, 51009, 51022];
 
 const NAMES: [&str; 14] = [
@@ -43,44 +43,43 @@ const NAMES: [&str; 14] = [
     "WarpRectilinear2",
 ];
 
-/// Those without which numbers are not in proportion to light, so that none is passed over. Of the deltas
-/// readers differ about the unit.
+/// Opcodes without which numbers are not proportional to light, and which are never skipped. Readers disagree
+/// on the unit of the deltas.
 const CHANGE_LIGHT: [u32; 8] = [3, 7, 8, 9, 10, 11, 12, 13];
 
-/// A sensor has a map of gains for each colour of its mosaic, sixteen at most, and little more.
+/// A sensor has a gain map for each colour of its mosaic, sixteen at most, and few others.
 const OPCODES_MAX: u32 = 64;
 
-/// What is to be done.
+/// The operations to be applied.
 #[derive(Default)]
 pub(super) struct Opcodes {
-    /// In this order.
+    /// In order.
     list: Vec<Opcode>,
-    /// Numbers whose sites saw nothing, which are asked for site by site.
+    /// Numbers that mark defective sites, tested site by site.
     constants: Vec<f64>,
 }
 
 struct Opcode {
-    /// Column and row of the sensor from which it counts.
+    /// Column and row of the sensor that are its origin.
     origin: Point,
-    /// Whether it is for all colours of each pixel.
+    /// Whether it applies to all colours of each pixel.
     is_demosaiced: bool,
     does: Does,
 }
 
 enum Does {
-    /// Sites that stored this number saw nothing.
+    /// Sites that stored this number are defective.
     LeaveOutNumber(f64),
-    /// Sites in these rows and columns saw nothing.
+    /// Sites in these rows and columns are defective.
     LeaveOut(Vec<[Range<usize>; 2]>),
     Multiply(Area, Factor),
 }
 
 impl Opcodes {
-    /// The lists of a sensor's directory; those for light count from its active area's corner.
+    /// The lists in a sensor's directory; those for light are relative to its active area's corner.
     ///
     /// # Errors
-    /// [`Error::Picture`] if a list is damaged, or has an opcode that cannot be done and must not be passed
-    /// over.
+    /// [`Error::Picture`] if a list is damaged, or has an unsupported opcode that must not be skipped.
     pub fn read(path: &Path, directory: &Directory, active: Rect) -> Result<Self> {
         let mut opcodes = Vec::new();
         for (tag, stage) in LISTS.into_iter().zip(1..) {
@@ -99,14 +98,14 @@ impl Opcodes {
         Self { constants: constants.collect(), list }
     }
 
-    /// Whether sites that stored this number saw nothing.
+    /// Whether sites that stored this number are defective.
     #[inline]
     pub fn leaves_out(&self, stored: f64) -> bool {
         self.constants.iter().any(|number| same(*number, stored))
     }
 
-    /// Does what is to be done to light, of which the first row and column are those at `corner` of the
-    /// sensor; the mosaic begins there, too.
+    /// Applies the operations to light whose first row and column are at `corner` of the sensor, where the
+    /// mosaic begins, too.
     pub fn apply(&self, light: &mut Array3<f32>, corner: Point, mosaic: Option<&Mosaic>) {
         for Opcode { origin, is_demosaiced, does } in &self.list {
             let [top, left] = [corner.y - origin.y, corner.x - origin.x];
@@ -121,12 +120,12 @@ impl Opcodes {
     }
 }
 
-/// Stored numbers are whole.
+/// Whether two stored numbers are equal; they are integers.
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() < 0.5
 }
 
-/// A list is a count, and for each opcode its number, version, flags, length and parameters.
+/// A list is a count, followed by number, version, flags, length and parameters of each opcode.
 fn read_list(path: &Path, mut list: Parameters, stage: u32, active: Rect) -> Result<Vec<Opcode>> {
     let cut = || damaged(path, format!("its OpcodeList{stage} is cut short"));
     let count = list.long().ok_or_else(cut)?;
@@ -158,7 +157,7 @@ fn read_list(path: &Path, mut list: Parameters, stage: u32, active: Rect) -> Res
     Ok(opcodes)
 }
 
-/// Whether an opcode of a list is one of those that are done.
+/// Whether an opcode of a list is supported.
 fn is_done(id: u32, stage: u32) -> bool {
     match id {
         5 => true,
@@ -169,7 +168,7 @@ fn is_done(id: u32, stage: u32) -> bool {
 }
 
 impl Does {
-    /// None if the parameters make no sense.
+    /// None if the parameters are inconsistent.
     fn read(mut parameters: Parameters, id: u32, active: Rect) -> Option<Self> {
         let of = &mut parameters;
         match id {
@@ -192,7 +191,7 @@ impl Does {
     }
 }
 
-/// Points and rectangles of sites that saw nothing; none if they are more than the sensor has.
+/// Points and rectangles of defective sites; none if they exceed the sensor.
 fn bad_sites(of: &mut Parameters, active: Rect) -> Option<Vec<[Range<usize>; 2]>> {
     let _bayer_phase = of.long()?;
     let [points, rectangles] = [of.long()?, of.long()?];
@@ -210,7 +209,8 @@ fn bad_sites(of: &mut Parameters, active: Rect) -> Option<Vec<[Range<usize>; 2]>
     (count <= active.d.w * active.d.h).then_some(sites)
 }
 
-/// Marks sites as having no light; `top` and `left` are where the light begins, counted as the sites are.
+/// Marks sites as having no light; `top` and `left` are the first row and column of the light in the sites'
+/// coordinates.
 fn leave_out(light: &mut Array3<f32>, [top, left]: [usize; 2], sites: &[[Range<usize>; 2]]) {
     let (height, width, _) = light.dim();
     let within = |range: &Range<usize>, first: usize, size: usize| {

@@ -1,10 +1,10 @@
 //! The numbers of an opcode.
 
-/// Numbers of an opcode, big end first.
+/// Numbers of an opcode, big-endian.
 pub(super) struct Parameters<'a>(pub &'a [u8]);
 
 impl<'a> Parameters<'a> {
-    /// So many bytes; like all that follow, none if there are not as many.
+    /// The next `bytes` bytes; like all that follow, none if fewer are left.
     pub fn take(&mut self, bytes: usize) -> Option<Parameters<'a>> {
         let (taken, rest) = self.0.split_at_checked(bytes)?;
         self.0 = rest;
@@ -24,7 +24,7 @@ impl<'a> Parameters<'a> {
         Some(f64::from_be_bytes(*bytes.0.first_chunk()?)).filter(|double| double.is_finite())
     }
 
-    /// So many floats that light can be multiplied by.
+    /// The next `count` floats, if they are valid factors of light.
     pub fn gains(&mut self, count: usize) -> Option<Vec<f32>> {
         let floats = self.take(count.checked_mul(4)?)?;
         let gains =
@@ -33,7 +33,7 @@ impl<'a> Parameters<'a> {
         gains.iter().all(|gain| *gain >= 0.0 && gain.is_finite()).then_some(gains)
     }
 
-    /// The same behind their number, which must be `count`.
+    /// The same, preceded by their number, which must be `count`.
     pub fn factors(&mut self, count: usize) -> Option<Vec<f32>> {
         (self.size()? == count).then(|| self.gains(count))?
     }

@@ -22,7 +22,7 @@ fn read(stage: u32, opcodes: &[(u32, u32, Vec<u8>)]) -> Result<Opcodes> {
     read_list(Path::new("a.dng"), Parameters(&list(opcodes)), stage, ACTIVE).map(Opcodes::new)
 }
 
-/// What is left of even light; the picture is the active area without its first row and column.
+/// The result for uniform light; the picture is the active area without its first row and column.
 fn light(stage: u32, opcodes: &[(u32, u32, Vec<u8>)], mosaic: Option<&Mosaic>) -> Array3<f32> {
     let mut light = Array3::from_elem((5, 7, 1), 0.5);
     read(stage, opcodes).unwrap().apply(&mut light, Point::new(2, 3), mosaic);
@@ -51,7 +51,7 @@ fn what_makes_no_sense_is_damaged() {
         assert!(read_list(Path::new("a.dng"), Parameters(bytes), 2, ACTIVE).is_err());
     }
     assert!(read(1, &[(5, 0, longs(&[0, 0, 1, 0, 0, 1000, 1000]))]).is_err());
-    // no light in the farthest corner, and less than none
+    // no light in the farthest corner, and negative light
     for (coefficient, is_read) in [(-1.0, true), (-1.1, false)] {
         let doubles = [coefficient, 0.0, 0.0, 0.0, 0.0, 0.5, 0.5].into_iter().flat_map(f64::to_be_bytes);
         assert_eq!(read(3, &[(3, 1, doubles.collect())]).is_ok(), is_read, "{coefficient}");
@@ -60,7 +60,7 @@ fn what_makes_no_sense_is_damaged() {
 
 #[test]
 fn bad_sites_have_no_light() {
-    // a point of the picture, one before it and one behind; a rectangle that reaches beyond
+    // a point in the picture, one before it and one beyond; a rectangle that extends beyond it
     let sites = longs(&[0, 3, 1, 4, 3, 0, 0, 90, 90, 5, 7, 8, 12]);
     let light = light(1, &[(5, 0, sites)], None);
     let missing = light.indexed_iter().filter(|(_, light)| light.is_nan()).map(|((y, x, _), _)| (y, x));
@@ -75,7 +75,7 @@ fn rows_and_columns_have_factors_of_their_own() {
         let floats = factors.iter().flat_map(|factor| factor.to_be_bytes());
         [longs(area), longs(&[factors.len() as u32]), floats.collect()].concat()
     };
-    // every other row from the active area's second on, all columns but the last
+    // every other row from the active area's second, all columns but the last
     let rows = factors(&[1, 0, 6, 7, 0, 1, 2, 1], &[2.0, 3.0, 4.0]);
     let columns = factors(&[0, 1, 6, 3, 0, 1, 1, 1], &[10.0, 100.0]);
     let light = light(2, &[(12, 0, rows), (13, 1, columns)], None);
@@ -84,12 +84,12 @@ fn rows_and_columns_have_factors_of_their_own() {
     assert_eq!((light[[2, 6, 0]], light[[2, 5, 0]], light[[4, 5, 0]]), (0.5, 1.5, 2.0));
 }
 
-/// The axis in the middle, light twice as bright in the farthest corner, by the distance's square.
+/// The axis in the middle, light twice as bright in the farthest corner, by the squared distance.
 #[test]
 fn vignetting_grows_from_the_axis() {
     let doubles = [1.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.5].into_iter().flat_map(f64::to_be_bytes);
     let light = light(3, &[(3, 1, doubles.collect())], None);
-    // half a pixel from the axis both ways, and 3.5 and 2.5 px; the corner is 5 px off
+    // half a pixel from the axis in both directions, and 3.5 and 2.5 px; the corner is 5 px away
     for (site, factor) in [([1, 2, 0], 1.02), ([4, 6, 0], 1.74)] {
         assert!((light[site] - 0.5 * factor).abs() < 1e-6, "{site:?}: {}", light[site]);
     }
