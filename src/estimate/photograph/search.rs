@@ -204,10 +204,11 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     }
 }
 
-/// Adds to the real fold of most evidence the same fold of a brightened sheet and, where the exposure is known
-/// and cannot take that up, of a thin one, as far as the score test leaves them hope. The other folds are then
-/// of sheets that emit nothing. Not tried are ideal folds, as the rounding of a JPEG looks like emission, and
-/// dyes excited by visible light, as departures of real sheets from all known kinds look like them.
+/// Adds to the real fold of most evidence the same fold of a brightened sheet and, where the exposure is
+/// known and cannot take that up, of a thin one, as far as the score test leaves them hope. The other folds
+/// are then of sheets that emit nothing. Not tried are ideal folds, as the rounding of a JPEG looks like
+/// emission, and dyes excited by visible light, as departures of real sheets from all known kinds look like
+/// them.
 fn add_emitting(
     search: &mut Search<Photographs>,
     (family, photograph): (&Photographs, &Photograph),
