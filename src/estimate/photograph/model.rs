@@ -172,7 +172,7 @@ impl<'a> PhotographModel<'a> {
         terms
     }
 
-    /// The sheet's own emission at `w`, and the power of the albedo that it is in proportion to; none if nothing.
+    /// The sheet's emission at `w`, and the power of the albedo with which it grows; none if nothing.
     fn sent(&self, w: &DVector<f64>) -> Option<(Sent, i32)> {
         let emission = self.emission?;
         Some((emission.at(self.of_emission(w)), emission.power_of_reflectance()))
