@@ -1,11 +1,11 @@
-//! What the numbers believed of photographs do to estimates: how near they are, and how well the posterior
-//! foretells the truth.
+//! The effect of the numbers in the priors on photographs: the error of estimates, and how well the posterior
+//! predicts the truth.
 //!
-//! `cargo bench --bench priors -- STREAM...` prints a row of a table for every number, of photographs that
-//! carry their true reflectance, measured sheets being unknown where one of their names is in that of the
-//! stream; `cargo bench --bench priors -- --fit [NAME...] STREAM...` changes all numbers, or those named, one
-//! after the other by a quarter as long as that raises the score, and prints those that changed.
-//! `benches/priors.sh` makes the streams.
+//! `cargo bench --bench photograph_priors -- STREAM...` prints one table row per number, for photographs that
+//! carry their true reflectance; a measured sheet is left out of the priors where the stream has its name.
+//! With `--fit [NAME[=VALUE]...]` it changes all numbers, or those named, one after the other by a quarter as
+//! long as the score rises, from their usual or the stated values, and prints those that changed.
+//! `benches/photograph_priors.sh` makes the streams.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 #![allow(clippy::unwrap_used, reason = "a benchmark stops at the first surprise")]
@@ -144,10 +144,27 @@ fn table(all: &[Known]) -> Result<()> {
     Ok(())
 }
 
-fn fit(all: &[Known], names: &[String]) -> Result<()> {
-    let mut best = (quality(all, Priors::USUAL)?, Priors::USUAL);
+/// The usual priors, but for numbers of `asked` that are named with a value.
+fn start(asked: &[String]) -> Result<Priors> {
+    let mut priors = Priors::USUAL;
+    for (name, value) in asked.iter().filter_map(|one| one.split_once('=')) {
+        let number = Priors::NUMBERS.iter().find(|(known, _)| *known == name);
+        let (Some((_, of)), Ok(value)) = (number, value.parse()) else {
+            return Err(Error::Numeric(format!(
+                "{name}={value}: neither the name nor the value of a number"
+            )));
+        };
+        *of(&mut priors) = value;
+    }
+    Ok(priors)
+}
+
+fn fit(all: &[Known], asked: &[String]) -> Result<()> {
+    let start = start(asked)?;
+    let mut best = (quality(all, start)?, start);
     println!("score {:.4}, error {:.4}", best.0.score, best.0.rmse);
-    let is_asked = |name: &str| names.is_empty() || names.iter().any(|asked| asked == name);
+    let is_asked =
+        |name: &str| asked.is_empty() || asked.iter().any(|one| one.split('=').next() == Some(name));
     loop {
         let before = best.0.score;
         for (number, (name, of)) in Priors::NUMBERS.iter().enumerate().filter(|(_, (name, _))| is_asked(name))
