@@ -1,13 +1,14 @@
-//! From patches of known colour in a photograph to its absolute values.
+//! Absolute values of a photograph from patches of known colour.
 //!
-//! Paper, section 5D: one polynomial of second degree per channel takes what a colour chart shows to what the
-//! scene's camera makes of it. It holds the exposure, the colour of the light as far as it is not the
-//! scene's, stray light and a bent curve. A white card is a chart of one patch. Nothing here knows pixels:
-//! patches come as means.
+//! Paper, section 5D: a polynomial of second degree per channel maps the measured values of a colour chart to
+//! those of the scene's camera. It absorbs the exposure, any difference in colour between the light and the
+//! scene's, stray light and a nonlinear response. A white card is a chart of one patch. Nothing here knows
+//! about pixels: patches come as means.
 //!
-//! Facets are darker than most patches, so the polynomial's constant matters most, and reference values are
-//! off by a share of themselves. Plain least squares makes 2 % of error in each patch 7.5 % at 3 % of white.
-//! Here errors are relative, as large as the residuals say, and constant and curvature have priors: 2.5 %,
+//! Facets are darker than most patches, so the polynomial's constant matters most, and errors of reference
+//! values are relative. Plain least squares turns 2 % of error in each patch into 7.5 % at 3 % of white. Here
+//! errors are relative, with a size estimated from the residuals, and the constant and quadratic terms have
+//! priors: 2.5 %, and 0.5 % at 30 % of white (`tests/numbers/calibration.rs` measures both).
 //! and 0.5 % at 30 % of white (`tests/numbers/calibration.rs` measures both).
 
 mod patch;
@@ -18,11 +19,11 @@ use polynomial::Polynomial;
 
 use crate::error::{Error, Result};
 
-/// Mean residuals above this are no noise: a picture with an undone curve or another camera's has 0.02 to
-/// 0.12, patches in the wrong order 0.45 and more.
+/// Mean residuals above this are not noise: a picture with a tone curve or from another camera has 0.02
+/// to 0.12, patches in the wrong order have 0.45 and more.
 const LARGEST_RESIDUAL: f64 = 0.25;
 
-/// What takes a photograph's values to those of the scene's camera.
+/// The map from a photograph's values to those of the scene's camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     polynomials: Vec<Polynomial>,
@@ -31,15 +32,15 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// The calibration that patches ask for.
+    /// Fits the calibration to patches.
     ///
     /// # Arguments
     /// - `patches`: one or more, all with as many channels as the camera.
     /// - `reference_channel`: the channel in which a white diffuser facing the sun is 1 at exposure 1.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if the patches do not rise with what they should be, or are off by more than a
-    /// quarter.
+    /// [`Error::Numeric`] if measured values do not rise with the expected ones, or differ from them by more
+    /// than a quarter.
     ///
     /// # Source
     /// Deeb et al., section 5D, for the polynomial.
@@ -80,8 +81,8 @@ impl Calibration {
         Ok(calibration)
     }
 
-    /// Value of a perfect white diffuser facing the sun in the strongest channel: what the scene's camera, at
-    /// this exposure, would have shown the photograph's values.
+    /// Value of a perfect white diffuser facing the sun in the strongest channel: the exposure at which the
+    /// scene's camera would have shown the photograph's values.
     #[must_use]
     pub fn exposure(&self) -> f64 {
         self.exposure
@@ -93,14 +94,14 @@ impl Calibration {
         self.exposure_sd
     }
 
-    /// What the scene's camera would have shown at [`Calibration::exposure`] for a value of the photograph.
-    /// Beyond the brightest patch the polynomial goes on as its tangent.
+    /// The value that the scene's camera would have shown at [`Calibration::exposure`] for a value of the
+    /// photograph. Beyond the brightest patch the polynomial continues along its tangent.
     #[must_use]
     pub fn value(&self, channel: usize, measured: f64) -> f64 {
         self.polynomials[channel].value(measured)
     }
 
-    /// The same for a standard deviation about a value.
+    /// The same for the standard deviation of a value.
     #[must_use]
     pub fn sd(&self, channel: usize, measured: f64, sd: f64) -> f64 {
         self.polynomials[channel].slope(measured) * sd
@@ -112,7 +113,7 @@ impl Calibration {
         self.polynomials[channel].coefficients()
     }
 
-    /// How far a patch is from what it should be, a share of that per channel.
+    /// Relative deviation of a patch from its expected value, per channel.
     #[must_use]
     pub fn residual(&self, patch: &Patch) -> Vec<f64> {
         let channel = |(channel, polynomial): (usize, &Polynomial)| {
@@ -135,7 +136,7 @@ impl Calibration {
     }
 }
 
-/// A patch must have all channels, and light in each.
+/// A patch must have all channels, and a positive expected value in each.
 fn check(patch: &Patch, channels: usize) -> Result<()> {
     let Patch { name, measured, standard_error, expected } = patch;
     if [measured, standard_error, expected].iter().any(|values| values.len() != channels) {

@@ -1,4 +1,4 @@
-//! From the spectrum of light to the numbers of a camera, and what is known of cameras that nobody measured.
+//! From spectra to camera values, and what is known about cameras that have not been measured.
 
 mod from_chart;
 mod measured;
@@ -13,28 +13,29 @@ pub use stand_in::{LeftOut, StandIn, StandIns, Why};
 use crate::error::{Error, Result};
 use crate::spectrum::WavelengthGrid;
 
-/// What each channel of a camera makes of each waveband under one illuminant, or under several, a picture
+/// Response of each camera channel to each waveband under one illuminant, or under several with one picture
 /// each.
 ///
-/// `weights[c][l]` is `w_l C_c(λ_l) I(λ_l)`, the trapezoid rule over the grid included, scaled so that a
+/// `weights[c][l]` is `w_l C_c(λ_l) I(λ_l)`, including the trapezoid rule over the grid, scaled so that a
 /// perfect white diffuser facing the light gives 1 in the reference channel. The channels of several pictures
+/// follow each other.
 /// follow each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraResponse {
     weights: Vec<Vec<f64>>,
-    /// One a picture, counted from that picture's first channel.
+    /// One per picture, counted from that picture's first channel.
     reference_channels: Vec<usize>,
 }
 
 impl CameraResponse {
-    /// The response of `sensitivities` (channel by waveband) to `illuminant` (power a waveband) on `grid`;
-    /// the reference channel is the one that white drives most.
+    /// The response of `sensitivities` (channel by waveband) to `illuminant` (power per waveband) on `grid`;
+    /// the reference channel is the one with the strongest response to white.
     ///
     /// # Source
     /// Deeb et al., eqs. (17) and (18).
     ///
     /// # Errors
-    /// [`Error::Numeric`] if a channel sees nothing of the illuminant.
+    /// [`Error::Numeric`] if a channel does not respond to the illuminant.
     ///
     /// # Example
     /// ```
@@ -57,13 +58,13 @@ impl CameraResponse {
         Ok(response.with_reference(strongest))
     }
 
-    /// A response whose weights are known as they are; channel 0 is the reference.
+    /// A response with known weights; channel 0 is the reference.
     #[must_use]
     pub fn from_weights(weights: Vec<Vec<f64>>) -> Self {
         Self { weights, reference_channels: vec![0] }
     }
 
-    /// The responses to several illuminants as one with the channels of all.
+    /// Combines the responses to several illuminants into one with all their channels.
     ///
     /// # Example
     /// ```
@@ -82,10 +83,10 @@ impl CameraResponse {
         Self { weights, reference_channels }
     }
 
-    /// The response to another light, in each picture scaled to give 1 in its reference channel.
+    /// The response to another light, scaled to 1 in the reference channel of each picture.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if that channel sees nothing of it.
+    /// [`Error::Numeric`] if that channel does not respond to it.
     pub fn to_other_light(
         &self,
         grid: &WavelengthGrid,
@@ -125,20 +126,20 @@ impl CameraResponse {
         self.weights.iter().map(|channel| channel.iter().sum()).collect()
     }
 
-    /// Channel values of a flat sheet of this reflectance, one number per waveband, facing the light.
+    /// Channel values of a flat sheet facing the light, with this reflectance per waveband.
     #[must_use]
     pub fn of_flat(&self, reflectance: &[f64]) -> Vec<f64> {
         let value = |channel: &Vec<f64>| channel.iter().zip(reflectance).map(|(w, r)| w * r).sum();
         self.weights.iter().map(value).collect()
     }
 
-    /// The channel in which white is 1; of several pictures, the first one's.
+    /// The channel in which white is 1; with several pictures, that of the first.
     #[must_use]
     pub fn reference_channel(&self) -> usize {
         self.reference_channels[0]
     }
 
-    /// Number of channels, those of all pictures together.
+    /// Number of channels, in all pictures together.
     #[must_use]
     pub fn channels(&self) -> usize {
         self.weights.len()
@@ -150,7 +151,7 @@ impl CameraResponse {
         self.weights[0].len()
     }
 
-    /// Whether any channel sees the light of a waveband.
+    /// True if any channel responds to a waveband of the light.
     #[must_use]
     pub fn sees(&self, band: usize) -> bool {
         self.weights.iter().any(|channel| channel[band] != 0.0)

@@ -1,4 +1,4 @@
-//! The frame of every tool: common flags, exit status, broken pipes, files that are whole or absent.
+//! The frame of every tool: common flags, exit status, broken pipes, files that are complete or absent.
 
 mod generate;
 mod kernel;
@@ -121,8 +121,8 @@ pub trait ToolArgs: Parser {
 /// Runs one tool and turns its outcome into an exit status.
 ///
 /// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but
-/// some records carry an `error`; standard error says how many, and why the first does. Nothing is said of an
-/// [empty pipe](Error::EmptyPipe).
+/// some records carry an `error`; standard error gives their number and the first cause. An [empty
+/// pipe](Error::EmptyPipe) is not reported.
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
     let done = match A::try_parse() {
         Ok(args) => without_panic(|| frame(&args, tool)),
@@ -140,7 +140,7 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
         }
         Ok(_) => ExitCode::SUCCESS,
         Err(e) if e.is_broken_pipe() => ExitCode::SUCCESS,
-        // a pipeline ends with one line, that of the tool that failed
+        // a pipeline ends with a single message, that of the tool that failed
         Err(Error::EmptyPipe) => ExitCode::FAILURE,
         Err(e) => {
             say(A::command().get_name(), &e.to_string());
@@ -149,7 +149,7 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
     }
 }
 
-/// The tool between opening and finishing its output; which samples carry an error.
+/// Runs the tool between opening and finishing its output; returns the samples that carry an error.
 fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Result<Failures> {
     let common = args.common();
     start_threads(common.threads)?;
@@ -178,17 +178,17 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     }
 }
 
-/// Address space that a thread's stack takes, bytes.
+/// Address space of a thread's stack, bytes.
 const STACK: u64 = 2 << 20;
-/// What any run takes besides: with less it would end without a word, somewhere.
+/// Other memory of any run: with less it would end somewhere without a message.
 const LEAST_ROOM: u64 = 32 << 20;
 
-/// Starts so many threads, else as many as the environment says, else one for each core.
+/// Starts `count` threads, or else as many as the environment specifies, or else one per core.
 fn start_threads(count: Option<u16>) -> Result<()> {
     let in_environment = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|count| *count > 0);
     let all = || std::thread::available_parallelism().map_or(1, NonZero::get);
     let count = count.map(usize::from).or_else(in_environment).unwrap_or_else(all);
-    // threads that run already end the program where the stack of a later one leaves them no room
+    // where memory runs out for the stack of one thread, those already running end the program
     let room = LEAST_ROOM + STACK * count as u64;
     room::ask(room, &format!("a run on {count} threads"), "take fewer with --threads")?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count);
@@ -218,10 +218,10 @@ fn field_and_file(text: &str) -> std::result::Result<(String, PathBuf), String> 
     }
 }
 
-/// Parses the name of a drawing, `-` being the terminal.
+/// Parses the name of a drawing; `-` is the terminal.
 ///
 /// # Errors
-/// A message for the command line, if it ends in neither .svg nor .png.
+/// A message for the command line if the name ends in neither .svg nor .png.
 pub fn drawing(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).as_deref() {
@@ -277,11 +277,10 @@ pub struct OpticsArgs {
     pub wavelengths_nm: WavelengthGrid,
 }
 
-/// Parses the SPEC of a light, of which a large number may be the temperature or the power of a flat
-/// spectrum.
+/// Parses the SPEC of a light, in which a large number may be a temperature or the power of a flat spectrum.
 ///
 /// # Errors
-/// Both readings, if the text is such a number.
+/// A message with both readings, if the text is such a number.
 ///
 /// # Example
 /// ```
@@ -290,8 +289,7 @@ pub struct OpticsArgs {
 /// assert_eq!(vfold::cli::light("1").as_deref(), Ok("1"));
 /// ```
 pub fn light(text: &str) -> std::result::Result<String, String> {
-    /// Nothing shines at so few kelvins, and no light is called by such a number, as D50 and D65 are by
-    /// theirs.
+    /// No black body glows at so few kelvins, and no light is named by such a number, as D50 and D65 are.
     const POWER_MAX: f64 = 10.0;
     let number = text.trim();
     match number.parse() {
@@ -316,10 +314,10 @@ fn wavelengths(text: &str) -> std::result::Result<WavelengthGrid, String> {
 }
 
 impl OpticsArgs {
-    /// The one illuminant, where a tool looks at one picture.
+    /// The only illuminant, for a tool that takes one picture.
     ///
     /// # Errors
-    /// [`Error::Usage`] if there are several; `why` one is all that the tool takes.
+    /// [`Error::Usage`] if there are several; `why` says that the tool takes only one.
     pub fn one_illuminant(&self, why: &str) -> Result<&str> {
         match self.illuminant.as_slice() {
             [] => Ok(ASSUMED_LIGHT),
@@ -328,10 +326,10 @@ impl OpticsArgs {
         }
     }
 
-    /// Refuses a light that is unknown, where a tool computes with it.
+    /// Refuses an unknown light, for tools that compute with it.
     ///
     /// # Errors
-    /// [`Error::Usage`] if one of the illuminants is.
+    /// [`Error::Usage`] if one of the illuminants is unknown.
     pub fn known_illuminants(&self, why: &str) -> Result<()> {
         match self.illuminant.iter().chain(&self.sky_illuminant).any(|spec| spec == UNKNOWN_LIGHT) {
             true => Err(Error::usage("--illuminant", format!("'{UNKNOWN_LIGHT}' is no light"), why)),
@@ -339,8 +337,8 @@ impl OpticsArgs {
         }
     }
 
-    /// The spectra that the flags name, on the wavelengths, with the camera of this name or file. A camera
-    /// sees nothing where it was not measured. What was converted is said as `common` asks.
+    /// The spectra named by the flags, on the wavelengths, with the camera of this name or file. A camera has
+    /// no response where it was not measured. Conversions are reported as `common` demands.
     ///
     /// # Errors
     /// As [`Common::illuminant`], or if an illuminant does not cover the wavelengths.
@@ -349,7 +347,7 @@ impl OpticsArgs {
         Optics::new(self.wavelengths_nm.clone(), camera, &illuminants, sky.as_ref())
     }
 
-    /// The illuminants that the flags name, none if they are unknown, and that of the sky, if it has its own.
+    /// The illuminants named by the flags, none if they are unknown, and that of the sky if it has its own.
     ///
     /// # Errors
     /// As [`Common::illuminant`].
@@ -363,7 +361,7 @@ impl OpticsArgs {
         Ok((illuminants, self.sky()?.as_ref().map(light).transpose()?))
     }
 
-    /// The spectrum of the sky; `sky` alone goes with the sun.
+    /// The spectrum of the sky; `sky` alone belongs to the sun.
     fn sky(&self) -> Result<Option<String>> {
         match (self.sky_illuminant.as_deref(), self.illuminant.as_slice()) {
             (Some("sky"), [sun, ..]) if sun.starts_with("sun:") => Ok(Some(sun.replacen("sun:", "sky:", 1))),

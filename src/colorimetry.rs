@@ -1,7 +1,8 @@
-//! What a reflectance looks like: XYZ, CIELAB, CIEDE2000, and sRGB for swatches.
+//! The appearance of a reflectance: XYZ, CIELAB, CIEDE2000, and sRGB for swatches.
 //!
 //! Paper section 5B scores an estimate by CIEDE2000 for the 10° observer under D65. CIELAB, CIEDE2000 and the
-//! sRGB primaries are the crate `colorimetry`'s; only the integral over the scene's own grid is done here.
+//! sRGB primaries are from the crate `colorimetry`; only the integral over the scene's own grid is computed
+//! here.
 
 mod uncertainty;
 
@@ -35,8 +36,8 @@ impl From<Observer> for observer::Observer {
 
 /// An observer and an illuminant on one wavelength grid.
 ///
-/// Integrals are by the trapezoid rule over the grid's range, and the perfect diffuser has Y = 100 on that
-/// same range: the paper's 400..700 nm leaves out the ends of 360..830 nm, where the observers see next to
+/// Integrals use the trapezoid rule over the grid's range, and the perfect diffuser has Y = 100 over that
+/// same range: the paper's 400..700 nm omits the ends of 360..830 nm, where the observers see next to
 /// nothing.
 ///
 /// # Example
@@ -51,7 +52,7 @@ impl From<Observer> for observer::Observer {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Colorimeter {
-    /// X, Y and Z of a unit reflectance in each waveband alone.
+    /// X, Y and Z of unit reflectance in each waveband alone.
     wavebands: Vec<[f64; 3]>,
     white: XYZ,
     to_d65: Matrix3<f64>,
@@ -61,8 +62,8 @@ impl Colorimeter {
     /// The colorimeter for spectra on `grid`.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if `illuminant` does not cover the grid, [`Error::Numeric`] if it leaves one of X,
-    /// Y, Z dark: there is no white to compare with then.
+    /// [`Error::Spectrum`] if `illuminant` does not cover the grid, [`Error::Numeric`] if X, Y or Z of it is
+    /// zero, so that there is no white for comparison.
     pub fn new(grid: &WavelengthGrid, illuminant: &Spectrum, observer: Observer) -> Result<Self> {
         let power = illuminant.on(grid, Outside::Refuse)?;
         let weights_nm = grid.trapezoid_weights_nm();
@@ -84,20 +85,20 @@ impl Colorimeter {
         Ok(Self { wavebands, white, to_d65: bradford(white, white.observer().xyz_d65()) })
     }
 
-    /// XYZ of a reflectance on the grid; 100 is the Y of the perfect diffuser.
+    /// XYZ of a reflectance on the grid; the perfect diffuser has Y = 100.
     ///
     /// # Panics
-    /// If `reflectance` is not as long as the grid.
+    /// If the length of `reflectance` differs from that of the grid.
     #[must_use]
     pub fn xyz(&self, reflectance: &[f64]) -> [f64; 3] {
         assert_eq!(reflectance.len(), self.wavebands.len(), "a reflectance on another grid");
         sum(self.wavebands.iter().zip(reflectance).map(|(xyz, r)| xyz.map(|value| value * r)))
     }
 
-    /// CIELAB L*, a*, b* of a reflectance on the grid, the perfect diffuser being white.
+    /// CIELAB L*, a*, b* of a reflectance on the grid, with the perfect diffuser as white.
     ///
     /// # Panics
-    /// If `reflectance` is not as long as the grid.
+    /// If the length of `reflectance` differs from that of the grid.
     #[must_use]
     pub fn lab(&self, reflectance: &[f64]) -> [f64; 3] {
         self.lab_of(self.xyz(reflectance))
@@ -111,30 +112,30 @@ impl Colorimeter {
     /// CIEDE2000 between two reflectances on the grid.
     ///
     /// # Panics
-    /// If a reflectance is not as long as the grid.
+    /// If the length of a reflectance differs from that of the grid.
     #[must_use]
     pub fn delta_e_2000(&self, a: &[f64], b: &[f64]) -> f64 {
         ciede2000(self.lab(a), self.lab(b))
     }
 
     /// Special metamerism index for a change of illuminant: CIEDE2000 under `self` between two reflectances,
-    /// `b` being corrected by the factors in X, Y and Z that make the two look alike under `reference`.
+    /// after correcting `b` by the factors in X, Y and Z that make the two match under `reference`.
     ///
-    /// 0 for two reflectances that match under both; what is left is what no correction for one light can
-    /// take away.
+    /// 0 for two reflectances that match under both; otherwise the difference that no correction for one
+    /// light removes.
     ///
     /// # Source
     /// CIE 15:2018, section 9.2; the multiplicative correction is that of A. Brockes, "Vergleich der
     /// Metamerie-Indizes bei Lichtartwechsel", *Die Farbe* 19 (1970), p. 135, and DIN 6172.
     ///
     /// # Panics
-    /// If a reflectance is not as long as the grid.
+    /// If the length of a reflectance differs from that of the grid.
     #[must_use]
     pub fn metamerism_index(&self, reference: &Self, a: &[f64], b: &[f64]) -> f64 {
         let (a_reference, b_reference) = (reference.xyz(a), reference.xyz(b));
         let (a, mut b) = (self.xyz(a), self.xyz(b));
         for (i, b) in b.iter_mut().enumerate() {
-            // nothing multiplies black to match
+            // no factor makes black match
             if b_reference[i] > 0.0 {
                 *b *= a_reference[i] / b_reference[i];
             }
@@ -142,20 +143,20 @@ impl Colorimeter {
         ciede2000(self.lab_of(a), self.lab_of(b))
     }
 
-    /// The reflectance as a colour on screen: sRGB (IEC 61966-2-1) with its transfer curve, each 0..1.
+    /// The reflectance as a screen colour: sRGB (IEC 61966-2-1) with its transfer curve, each 0..1.
     ///
-    /// The perfect diffuser is the screen's white whatever the illuminant (Bradford adaptation); colours the
-    /// screen cannot show are clipped.
+    /// The perfect diffuser is the screen's white whatever the illuminant (Bradford adaptation); colours
+    /// outside the gamut are clipped.
     ///
     /// # Panics
-    /// If `reflectance` is not as long as the grid.
+    /// If the length of `reflectance` differs from that of the grid.
     #[must_use]
     pub fn srgb(&self, reflectance: &[f64]) -> [f64; 3] {
         self.screen(self.xyz(reflectance)).map(encode_srgb)
     }
 
-    /// Linear sRGB of a unit reflectance in each waveband alone: what a camera would see whose pictures need
-    /// no colour conversion. Channel by waveband; white gives 1 in each channel.
+    /// Linear sRGB of unit reflectance in each waveband alone, the response of a camera that needs no colour
+    /// conversion: channel by waveband. White gives 1 in each channel.
     #[must_use]
     pub fn screen_weights(&self) -> Vec<Vec<f64>> {
         (0..3).map(|channel| self.wavebands.iter().map(|xyz| self.screen(*xyz)[channel]).collect()).collect()
@@ -168,7 +169,7 @@ impl Colorimeter {
     }
 }
 
-/// Linear sRGB, 0..1, as a screen's number, 0..1 (IEC 61966-2-1); values outside are clipped.
+/// Encodes linear sRGB, 0..1, as a screen value, 0..1 (IEC 61966-2-1); values outside are clipped.
 #[must_use]
 pub fn encode_srgb(linear: f64) -> f64 {
     RgbSpace::SRGB.gamma().encode(linear.clamp(0.0, 1.0))
@@ -184,12 +185,12 @@ pub fn encode_srgb(linear: f64) -> f64 {
 /// ```
 #[must_use]
 pub fn ciede2000(lab_a: [f64; 3], lab_b: [f64; 3]) -> f64 {
-    // the crate only compares colours that share a white, and these do
+    // the crate compares only colours with the same white, as these have
     let white = XYZ::new([100.0; 3], observer::Observer::Cie1964);
     CieLab::new(lab_a, white).ciede2000(&CieLab::new(lab_b, white)).unwrap_or(f64::NAN)
 }
 
-/// x̄, ȳ, z̄ at the grid's wavelengths; 0 outside the 380..780 nm the crate has.
+/// x̄, ȳ, z̄ at the grid's wavelengths; 0 outside the crate's 380..780 nm.
 fn matching_functions(grid: &WavelengthGrid, observer: observer::Observer) -> Vec<[f64; 3]> {
     let at = |nm: f64| observer.xyz_at_wavelength(nm as usize).map_or([0.0; 3], |xyz| xyz.to_array());
     let between = |&nm: &f64| {
@@ -203,7 +204,8 @@ fn sum(terms: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
     terms.fold([0.0; 3], |[x, y, z], [dx, dy, dz]| [x + dx, y + dy, z + dz])
 }
 
-/// XYZ seen under the white `from` to XYZ seen alike under the white `to` (Lam 1985; CIE 159:2004, Bradford).
+/// Matrix from XYZ under the white `from` to XYZ of the same appearance under the white `to` (Lam 1985; CIE
+/// 159:2004, Bradford).
 fn bradford(from: XYZ, to: XYZ) -> Matrix3<f64> {
     #[rustfmt::skip]
     let cones = Matrix3::new(
@@ -213,6 +215,6 @@ fn bradford(from: XYZ, to: XYZ) -> Matrix3<f64> {
     );
     let [from, to] = [from, to].map(|white| cones * Vector3::from(white.to_array()));
     let gain = Matrix3::from_diagonal(&to.component_div(&from));
-    // the matrix is regular: the other branch is there for the types alone
+    // the matrix is invertible: the other branch only satisfies the types
     cones.try_inverse().map_or(Matrix3::identity(), |back| back * gain * cones)
 }

@@ -1,5 +1,5 @@
-//! Files that appear when they are whole: a reader never meets half of one, and a run that fails or is killed
-//! leaves none.
+//! Files that appear when they are complete: a reader never sees half of one, and a run that fails or is
+//! killed leaves none.
 
 mod checksum;
 pub(crate) mod forms;
@@ -16,7 +16,7 @@ use unicode_normalization::UnicodeNormalization;
 
 use crate::error::{Error, Result};
 
-/// A name as it is compared with others: systems write the same letters composed (é) or as a letter and its
+/// A name normalised for comparison: systems write the same letters composed (é) or as a letter and its
 /// accent.
 ///
 /// # Example
@@ -29,16 +29,16 @@ pub fn composed(name: &str) -> String {
     name.nfc().collect()
 }
 
-/// A file in its own folder that takes its name when it is whole. A pipe or device keeps its name and takes
-/// the bytes as they come.
+/// A file in its own folder that gets its name when it is complete. A pipe or device keeps its name and takes
+/// bytes as they come.
 ///
-/// Until then it has no name at all, so that whatever ends the run, SIGKILL included, leaves nothing behind.
-/// On file systems that know only files with names (NFS, FAT) it is called `.vfold-` and six letters, and
-/// stays there if a signal ends the run.
+/// Until then the file has no name at all, so whatever ends the run, SIGKILL included, leaves nothing behind.
+/// On file systems without unnamed files (NFS, FAT) it is called `.vfold-` and six letters, and remains if a
+/// signal ends the run.
 pub struct Saved {
     target: Target,
     path: PathBuf,
-    /// None of a pipe or device, which may take several.
+    /// `None` for a pipe or device, which may take several outputs.
     _claim: Option<Claim>,
 }
 
@@ -50,11 +50,11 @@ enum Target {
 }
 
 impl Saved {
-    /// Opens the file without its name, or the pipe or device.
+    /// Opens the file without a name, or the pipe or device.
     ///
     /// # Errors
-    /// [`Error::File`] if the folder cannot be written or the name is that of a link to nothing,
-    /// [`Error::Usage`] if another output of this run has the name.
+    /// [`Error::File`] if the folder cannot be written or the name is a dangling link, [`Error::Usage`] if
+    /// another output of this run has the name.
     pub fn new(path: &Path) -> Result<Self> {
         let failed = |e| Error::file(path.display(), e);
         let path = match path.metadata() {
@@ -62,9 +62,9 @@ impl Saved {
                 let target = Target::Special(File::options().write(true).open(path).map_err(failed)?);
                 return Ok(Self { target, path: path.to_owned(), _claim: None });
             }
-            // A link to a file stays a link: its target is replaced.
+            // A link to a file remains a link: its target is replaced.
             Ok(_) => path.canonicalize().map_err(failed)?,
-            // One that leads to itself or to nothing is not what was meant.
+            // A link to itself or to nothing is not what was meant.
             Err(_) if path.is_symlink() => {
                 return Err(failed(io::Error::other("a link that leads to no file")));
             }
@@ -84,7 +84,7 @@ impl Saved {
         }
     }
 
-    /// The name it will have.
+    /// The name the file will have.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -100,10 +100,10 @@ impl Saved {
         saved.keep()
     }
 
-    /// Gives the file its name, once it is on the disk: only then is all known that can go wrong.
+    /// Gives the file its name once it is on the disk: only then are all possible errors known.
     ///
     /// # Errors
-    /// [`Error::File`] if the rest of it cannot be written, or the file not be renamed.
+    /// [`Error::File`] if the rest of the file cannot be written, or it cannot be renamed.
     pub fn keep(mut self) -> Result<()> {
         if !matches!(self.target, Target::Special(_)) {
             self.file_mut().sync_data().map_err(|e| Error::file(self.path.display(), e))?;
@@ -130,13 +130,13 @@ impl Write for Saved {
     }
 }
 
-/// Whether `{}` in the name of a file stands for another name.
+/// True if `{}` in a file name stands for another name.
 #[must_use]
 pub fn is_pattern(path: &Path) -> bool {
     path.to_str().is_some_and(|text| text.contains("{}"))
 }
 
-/// The file that a pattern stands for, `name` in the place of each `{}`.
+/// The file that a pattern stands for, with `name` in place of each `{}`.
 ///
 /// # Example
 /// ```
@@ -148,8 +148,8 @@ pub fn named(pattern: &Path, name: &str) -> PathBuf {
     pattern.to_str().map_or_else(|| pattern.to_owned(), |text| text.replace("{}", name).into())
 }
 
-/// The right to a file's name, for as long as the file is written: of two outputs that took one name, one
-/// would be lost.
+/// The exclusive right to a file's name while the file is written: of two outputs with one name, one would be
+/// lost.
 pub(crate) struct Claim(PathBuf);
 
 static CLAIMED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
@@ -177,14 +177,14 @@ fn claimed() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     CLAIMED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file in the folder of `path`: without a name where there can be one, else under a temporary name.
+/// A file in the folder of `path`: unnamed where possible, else with a temporary name.
 fn target_beneath(path: &Path) -> io::Result<Target> {
     #[cfg(target_os = "linux")]
     if let Some(file) = unnamed::open(folder(path)) {
         return Ok(Target::Unnamed(file));
     }
     let mut builder = temporary();
-    // Temporary files are private by default; a result is for whom the umask allows.
+    // Temporary files are private by default; results are for everyone whom the umask allows.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder(path)).map(Target::Named)
@@ -210,14 +210,14 @@ mod unnamed {
 
     use super::{File, Path, PathBuf, folder, io, temporary};
 
-    /// None where the file system has none, or could not name it later.
+    /// `None` if the file system has no unnamed files, or could not name them later.
     pub(super) fn open(folder: &Path) -> Option<File> {
         let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
         let file = File::from(openat(CWD, folder, flags, Mode::from_raw_mode(0o666)).ok()?);
         descriptor(&file).exists().then_some(file)
     }
 
-    /// Gives it a temporary name: a rename can take the place of another file, a link cannot.
+    /// Gives it a temporary name: a rename can replace another file, a link cannot.
     pub(super) fn temporary_name(file: &File, path: &Path) -> io::Result<TempPath> {
         let link = |name: &Path| Ok(linkat(CWD, descriptor(file), CWD, name, AtFlags::SYMLINK_FOLLOW)?);
         temporary().make_in(folder(path), link).map(tempfile::NamedTempFile::into_temp_path)

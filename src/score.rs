@@ -1,8 +1,8 @@
 //! Distances between a true and an estimated reflectance spectrum.
 //!
 //! Paper section 5B: eq. (37) is [`rmse`], eq. (38) is [`pearson_distance`]. CIEDE2000, which needs an
-//! observer, is in [`crate::colorimetry`]. [`METRICS`] has a row for each metric; [`Summary`] has mean,
-//! median and worst of many samples, [`Worst`] keeps the worst of them.
+//! observer, is in [`crate::colorimetry`]. [`METRICS`] has a row per metric; [`Summary`] gives mean, median
+//! and worst over many samples, [`Worst`] keeps the worst samples.
 
 mod metric;
 mod summary;
@@ -31,9 +31,9 @@ pub fn rmse(truth: &[f64], estimate: &[f64]) -> f64 {
 
 /// The paper's "Pearson distance", eq. (38): one minus the cosine between the spectra, 0..1 for reflectances.
 ///
-/// Pearson's correlation subtracts the means first; this does not, so that two flat greys are at distance 0.
-/// Scale does not matter: exposure drops out. A spectrum of zeros has no direction: its distance is 0 to
-/// another one of zeros, 1 to anything else.
+/// Pearson's correlation subtracts the means first; this does not, so two flat greys have distance 0. Scale
+/// does not matter, so exposure drops out. A spectrum of zeros has no direction: its distance is 0 to another
+/// one of zeros, 1 to anything else.
 ///
 /// # Panics
 /// If the slices differ in length.
@@ -63,8 +63,8 @@ fn norm(spectrum: &[f64]) -> f64 {
 
 /// Goodness of fit coefficient: the cosine between the spectra, 1 for the same shape.
 ///
-/// 0.999 is called good, 0.9999 very good. One minus it is [`pearson_distance`], with which it shares what
-/// becomes of black.
+/// 0.999 is called good, 0.9999 very good. One minus it is [`pearson_distance`], which also defines its value
+/// for black.
 ///
 /// # Source
 /// J. Romero, A. García-Beltrán, J. Hernández-Andrés, "Linear bases for representation of natural and
@@ -85,8 +85,8 @@ pub fn goodness_of_fit(truth: &[f64], estimate: &[f64]) -> f64 {
 
 /// Angle between the spectra as vectors, degrees, 0..90 for reflectances.
 ///
-/// By half angles, which keeps the digits that the arc cosine of nearly 1 loses; black is at 0° from black,
-/// at 90° from anything else.
+/// Computed from half angles, which keep the digits that the arc cosine of nearly 1 loses; black is at 0°
+/// from black, at 90° from anything else.
 ///
 /// # Source
 /// F. A. Kruse et al., "The spectral image processing system (SIPS)", *Remote Sensing of Environment* 44

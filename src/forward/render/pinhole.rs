@@ -226,7 +226,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)] // tests may panic
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
 
     use super::*;
     use proptest::prelude::*;
