@@ -49,8 +49,8 @@ const BEFORE: [[f64; 6]; 2] = [
     [508.0, -540.0, 488.0, -367.0, 144.0, -24.0],
 ];
 
-/// Coefficients of x, x², .. x⁵ between the third and fourth of six evenly spaced samples; CIE 167:2005, eq.
-/// (1).
+/// Coefficients of x, x², .. x⁵ between the third and fourth of six evenly spaced samples; CIE 167:2005,
+/// eq. (1).
 #[rustfmt::skip]
 const POLYNOMIAL: [[f64; 6]; 5] = [
     [2.0, -16.0, 0.0, 16.0, -2.0, 0.0],
