@@ -9,7 +9,6 @@
 //! values are relative. Plain least squares turns 2 % of error in each patch into 7.5 % at 3 % of white. Here
 //! errors are relative, with a size estimated from the residuals, and the constant and quadratic terms have
 //! priors: 2.5 %, and 0.5 % at 30 % of white (`tests/numbers/calibration.rs` measures both).
-//! and 0.5 % at 30 % of white (`tests/numbers/calibration.rs` measures both).
 
 mod patch;
 mod polynomial;

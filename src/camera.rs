@@ -19,7 +19,6 @@ use crate::spectrum::WavelengthGrid;
 /// `weights[c][l]` is `w_l C_c(λ_l) I(λ_l)`, including the trapezoid rule over the grid, scaled so that a
 /// perfect white diffuser facing the light gives 1 in the reference channel. The channels of several pictures
 /// follow each other.
-/// follow each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraResponse {
     weights: Vec<Vec<f64>>,

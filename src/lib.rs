@@ -21,7 +21,7 @@
 //! | eq. (17), eq. (18) | camera response | [`camera::CameraResponse`] |
 //! | eq. (15), eq. (24) | facet RGB, one reflectance per facet | [`paper::nonuniform`] |
 //! | eq. (24) | the same, one reflectance per panel | [`forward::FacetModel::facet_rgb`] |
-//! | eq. (24) | the same, known parts of a surface beside an unknown one | [`surfaces::ReducedExchange::with_known`] |
+//! | eq. (24) | the same, known parts of a surface next to an unknown one | [`surfaces::ReducedExchange::with_known`] |
 //! | eqs. (26) to (28) | one reflectance: modes of the kernel | [`response::Response`] |
 //! | eqs. (33) to (35) | RGB as modes times functions of r | [`forward::model`] |
 //! | eq. (36) | the estimate as a bounded minimum | [`paper::smooth`]; [`estimate::map`] with a better prior |

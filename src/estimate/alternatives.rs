@@ -1,5 +1,4 @@
-//! The same facets under several alternatives: one family of models, of which each alternative is a
-//! hypothesis.
+//! The same facets under several alternatives: one family of models, with each alternative a hypothesis.
 
 use super::data::FacetData;
 use super::facets::{Facets, Second};

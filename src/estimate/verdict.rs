@@ -95,7 +95,7 @@ impl Verdict {
     }
 }
 
-/// Refuses facets of which too much is neither noise nor the effect of any reflectance, such as those a
+/// Refuses facets if neither noise nor any reflectance explains enough of their light, such as facets a
 /// thousand times too bright.
 ///
 /// # Arguments

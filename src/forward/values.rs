@@ -47,7 +47,7 @@ impl FacetValues {
         self.is_measured.len()
     }
 
-    /// Whether there are no facets.
+    /// True if there are no facets.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.is_measured.is_empty()

@@ -204,7 +204,7 @@ impl JointModel<'_> {
 
     /// A factor of the information at a mode, with everything that is [stated](PhotographModel::by_nominal)
     /// about camera and light as additional numbers: an ideal fold is estimated as if the statements were
-    /// exact, but is not thereby known better.
+    /// exact, but its uncertainty is not reduced.
     fn information(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {
         // ideal folds are not joined
         let stated = match self.members() {

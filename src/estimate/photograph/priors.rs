@@ -152,7 +152,7 @@ priors! {
     /// Addition if all light is the sky's: root mean square differences of overcast skies of types 1, 3 and 5
     /// within panels (`benches/skies.rs`).
     discrepancy_sky: 0.016,
-    /// The same between panels 0 and 1: differences of all six types, half of which are brighter around the
+    /// The same between panels 0 and 1: differences of all six types, half of them brighter around the
     /// hidden sun.
     discrepancy_sky_aside: 0.07,
     /// In each channel by itself.
@@ -196,8 +196,8 @@ impl Priors {
         Normal { mean: 0.0, sd: 0.25 * self.discrepancy_shared }
     }
 
-    /// Prior of an effect that an ideal fold lacks, and of which half of all photographs have less than
-    /// `amount`: some almost none, a few several times as much.
+    /// Prior of an effect that an ideal fold lacks and that is below `amount` in half of all photographs: in
+    /// some almost absent, in a few several times as large.
     #[must_use]
     pub const fn amount(&self, amount: f64) -> Expectation {
         Expectation { unit: amount, normal: Normal { mean: ONE, sd: self.amount_sd } }

@@ -240,7 +240,7 @@ fn fluorescence(photograph: &Photograph, found: &Mixture<Hypothesis, ()>) -> Opt
     fluorescence_search::found(shares, (&found.values, found.spread.as_ref()), nothing, first)
 }
 
-/// Probability of some hypotheses among `all`, of which the one of most evidence comes first.
+/// Probability of some hypotheses among `all`, sorted by weight, the largest first.
 fn probability(all: &[Tried], of: impl Fn(&Hypothesis) -> bool) -> f64 {
     let ln_most = all.first().map_or(0.0, Tried::ln_weight);
     let weight = |one: &Tried| (one.ln_weight() - ln_most).exp();

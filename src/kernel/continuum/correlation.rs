@@ -26,8 +26,7 @@ pub(super) struct Correlation<'a> {
 }
 
 impl<'a> Correlation<'a> {
-    /// For strips with these numbers of polynomials, at these `distances`, of which the first is the
-    /// smallest.
+    /// For strips with these numbers of polynomials, at these `distances`, the smallest first.
     pub(super) fn new(orders: [usize; 2], nodes: &'a Nodes, distances: &'a [f64]) -> Self {
         let points = orders[0] + orders[1];
         let overlap = Rule::gauss_legendre(points);

@@ -53,6 +53,7 @@ pub struct Continuum {
 impl Continuum {
     /// Discretises the exchange between the panels of `fold`.
     ///
+    /// # Source
     /// Deeb et al., eq. (2), as the kernel of the integral equation iterated by eqs. (1) to (4). Facets are
     /// read as in the improvement of Galerkin's method by Sloan, *Improvement by iteration for compact
     /// operator equations* (1976).

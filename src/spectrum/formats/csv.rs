@@ -4,7 +4,6 @@
 //! or as declared by a first line `sep=;`. A column `red_sd` next to `red` is its standard deviation and
 //! omitted, as are row numbers before the wavelengths. The first column needs no name, and a row of units may
 //! follow the names. Quoted cells and blank lines at the end are accepted.
-//! names. Quoted cells and blank lines at the end are accepted.
 
 use std::collections::HashSet;
 
