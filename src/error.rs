@@ -1,14 +1,14 @@
-//! Every error of the five tools: where it is, what is wrong, what to do.
+//! Errors of the five tools: where, what is wrong, and what to do.
 
 use std::borrow::Cow;
 use std::io;
 
-/// What can go wrong, in one line a user can act on.
+/// Everything that can go wrong, each in one line a user can act on.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     // ---- command line (exit status 2) ----
-    /// A flag's value is outside what the tool can do.
+    /// A flag's value is outside the tool's range.
     #[error("{flag}: {problem}; {remedy}")]
     Usage {
         /// The flag, with its dashes.
@@ -25,7 +25,7 @@ pub enum Error {
     File {
         /// The file, `-` for standard input or output.
         path: String,
-        /// What the operating system said.
+        /// The operating system's error.
         source: io::Error,
     },
     /// Standard output cannot be written.
@@ -33,11 +33,11 @@ pub enum Error {
     Output(#[source] io::Error),
 
     // ---- the stream ----
-    /// The pipe that standard input is had nothing in it: the command before it failed, and has said why. The
-    /// tools end with status 1 and say no more.
+    /// Standard input is an empty pipe: the preceding command failed and has reported why. The tools end with
+    /// status 1 and without a message.
     #[error("nothing came from the command before this one")]
     EmptyPipe,
-    /// A line of the stream is not a record, or one of another JSON file is not what it should be.
+    /// A line of the stream is not a record, or a line of another JSON file is invalid.
     #[error("{path}:{line}: {problem}; {remedy}")]
     Record {
         /// The file, `-` for standard input.
@@ -49,7 +49,7 @@ pub enum Error {
         /// What to do.
         remedy: String,
     },
-    /// What is wrong with a record of a stream.
+    /// An error in a record of a stream.
     #[error("{path}:{line}: {source}")]
     Located {
         /// The stream's file, `-` for standard input.
@@ -59,7 +59,7 @@ pub enum Error {
         /// What is wrong, and what to do.
         source: Box<Self>,
     },
-    /// A record lacks a field, or the field does not hold what it should.
+    /// A record lacks a field, or the field has an invalid value.
     #[error("field '{field}': {problem}")]
     Field {
         /// The field's path in the record.
@@ -77,7 +77,7 @@ pub enum Error {
     },
 
     // ---- spectra ----
-    /// Wavelengths do not make a grid.
+    /// Wavelengths do not form a grid.
     #[error("wavelength grid: {problem}; {remedy}")]
     Grid {
         /// What is wrong.
@@ -85,7 +85,7 @@ pub enum Error {
         /// What to do.
         remedy: &'static str,
     },
-    /// A spectrum cannot be what it is used as.
+    /// A spectrum is unsuitable for its use.
     #[error("spectrum '{name}': {problem}; {remedy}")]
     Spectrum {
         /// The spectrum's name.
@@ -95,7 +95,7 @@ pub enum Error {
         /// What to do.
         remedy: String,
     },
-    /// A line of a table of spectra cannot be read.
+    /// A line in a table of spectra cannot be read.
     #[error("{path}:{line}: {problem}; {remedy}")]
     Table {
         /// The table's file.
@@ -112,9 +112,9 @@ pub enum Error {
     UnknownName {
         /// Illuminant, reflectance or camera.
         kind: &'static str,
-        /// What was asked for.
+        /// The name asked for.
         name: String,
-        /// The nearest names, and how to see all of them.
+        /// The nearest names, and how to list all of them.
         hint: String,
     },
 
@@ -129,7 +129,7 @@ pub enum Error {
         /// What to do.
         remedy: String,
     },
-    /// Four corners do not bound a panel in the picture.
+    /// Four corners do not bound a panel of the picture.
     #[error("{problem}; {remedy}")]
     Corners {
         /// Which corner, and what is wrong with it.
@@ -137,7 +137,7 @@ pub enum Error {
         /// What to give instead.
         remedy: String,
     },
-    /// A file of regions cannot be used.
+    /// A region file cannot be used.
     #[error("{path}: {problem}; {remedy}")]
     Regions {
         /// The file.
@@ -160,45 +160,45 @@ pub enum Error {
         remedy: String,
     },
 
-    /// The patches of a surface exchange more light than is kept.
+    /// The patches of a surface exchange light among more pairs than can be stored.
     #[error("{name}: the exchange between {patches} patches fills more than a gigabyte; take a coarser mesh")]
     FullExchange {
         /// Its file, or just `shape`.
         name: String,
-        /// How many there are.
+        /// Number of patches.
         patches: usize,
     },
 
     // ---- numbers ----
-    /// A check ran and found a law broken.
+    /// A check found a physical law violated.
     #[error("the kernel breaks a law: {0}")]
     BrokenLaw(String),
-    /// A computation cannot give a meaningful number.
+    /// A computation has no meaningful result.
     #[error("{0}")]
     Numeric(String),
 
-    /// No sample has what a drawing shows; the records are whole.
+    /// No sample has what a drawing shows; the records are complete.
     #[error("--plot: {0}; check the samples' errors")]
     NothingToDraw(&'static str),
-    /// There is no room for what a computation takes.
+    /// There is not enough memory for a computation.
     #[error("{what}: no room for {megabytes} MB; {remedy}, or allow more memory (ulimit -v)")]
     Memory {
-        /// What it is for.
+        /// Its purpose.
         what: String,
-        /// How much it takes.
+        /// Size.
         megabytes: u64,
         /// What to do without more memory.
         remedy: &'static str,
     },
 
     // ---- ours ----
-    /// The tool came upon something that it was not written for.
+    /// The tool reached a state that it was not written for.
     #[error("a fault of this program: {0}; report it with what it was given")]
     Fault(String),
 }
 
 impl Error {
-    /// The exit status that belongs to this error: 2 for wrong usage, 1 for bad data or I/O.
+    /// The exit status for this error: 2 for wrong usage, 1 for bad data or I/O.
     #[must_use]
     pub fn exit_status(&self) -> u8 {
         match self {
@@ -208,20 +208,20 @@ impl Error {
         }
     }
 
-    /// Whether this is what a check found, or what records lack for a drawing: what was written is whole, and
-    /// kept.
+    /// True for the finding of a check, and for records that lack what a drawing needs: the output is
+    /// complete and kept.
     #[must_use]
     pub fn is_finding(&self) -> bool {
         matches!(self, Self::BrokenLaw(_) | Self::NothingToDraw(_))
     }
 
-    /// Whether the reader of our output has gone, which is no failure of ours.
+    /// True if the reader of our output has gone, which is not a failure of ours.
     #[must_use]
     pub fn is_broken_pipe(&self) -> bool {
         matches!(self, Self::Output(e) if e.kind() == io::ErrorKind::BrokenPipe)
     }
 
-    /// Whether the process may open no more files (`ulimit -n`), or the machine: another file would fare no
+    /// True if the process (`ulimit -n`) or the machine can open no more files: another file would fare no
     /// better.
     #[must_use]
     pub fn is_out_of_files(&self) -> bool {
@@ -230,12 +230,12 @@ impl Error {
         matches!(self, Self::File { source, .. } if matches!(source.raw_os_error(), Some(ENFILE | EMFILE)))
     }
 
-    /// An I/O error with the file it happened to.
+    /// An I/O error with its file.
     pub fn file(path: impl std::fmt::Display, source: io::Error) -> Self {
         Self::File { path: path.to_string(), source }
     }
 
-    /// A picture file with what is wrong with it and what to do.
+    /// An unusable picture file, with the problem and the remedy.
     pub fn picture(
         path: &std::path::Path,
         problem: impl std::fmt::Display,
@@ -248,17 +248,17 @@ impl Error {
         }
     }
 
-    /// A file of regions with what is wrong with it and what to do.
+    /// An unusable region file, with the problem and the remedy.
     pub fn regions(path: &str, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::Regions { path: path.to_owned(), problem: problem.into(), remedy: remedy.into() }
     }
 
-    /// A surface with what is wrong with it.
+    /// An unusable surface, with the problem and the remedy.
     pub fn shape(problem: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::Shape { name: "shape".to_owned(), problem: problem.into(), remedy: remedy.into() }
     }
 
-    /// The same error with a surface called by its file.
+    /// The same error with a surface named by its file.
     #[must_use]
     pub fn of_file(self, path: &std::path::Path) -> Self {
         match self {
@@ -272,30 +272,29 @@ impl Error {
         }
     }
 
-    /// A record's field with what is wrong with it. What it quotes of the field is cut: it may be a whole
-    /// array.
+    /// An invalid field of a record. A long problem is shortened, as it may quote a whole array.
     pub fn field(field: impl Into<String>, problem: impl std::fmt::Display) -> Self {
         const LETTERS: usize = 400;
         Self::Field { field: field.into(), problem: cut(&problem.to_string(), LETTERS).into_owned() }
     }
 
-    /// A flag with what is wrong with its value and what to write instead.
+    /// An invalid value of a flag, with the problem and the remedy.
     pub fn usage(flag: &'static str, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::Usage { flag, problem: problem.into(), remedy: remedy.into() }
     }
 }
 
-/// What the operating system says, without its number, and without the temporary file that stands behind
-/// that, which nobody asked for.
+/// The operating system's message without its number, and without the name of a temporary file after it,
+/// which means nothing to the user.
 fn in_words(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error ").next().unwrap_or(&text).to_owned()
 }
 
-/// A result whose error is the tools' own.
+/// A result with the tools' own error.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// A text of at most so many letters, of a longer one its beginning and its end.
+/// A text of at most `letters` characters: the beginning and the end of a longer one.
 #[must_use]
 pub(crate) fn cut(text: &str, letters: usize) -> Cow<'_, str> {
     let count = text.chars().count();

@@ -1,13 +1,13 @@
 //! vfold measures the spectral reflectance of a matte sheet with an ordinary camera.
 //!
-//! Fold the sheet into a V, photograph it in the sun: light that bounces n times between the panels carries
-//! the n-th power of the reflectance, so the colour gradient along the panels holds far more than three
-//! numbers. The five tools in `src/bin` are thin; everything they do is here. From a photograph to a spectrum
-//! it is one call: [`measure::sheet`].
+//! Fold the sheet into a V and photograph it in the sun: light that bounces n times between the panels
+//! carries the n-th power of the reflectance, so the colour gradient along the panels holds far more than
+//! three numbers. The five tools in `src/bin` are thin; everything they do is here. A single call,
+//! [`measure::sheet`], leads from a photograph to a spectrum.
 //!
 //! The method is that of R. Deeb, D. Muselet, M. Hébert, A. Trémeau, "Spectral reflectance estimation from
 //! one RGB image using self-interreflections in a concave object", *Applied Optics* 57 (2018), p. 4918. Where
-//! its equations are:
+//! to find its equations:
 //!
 //! | equation | what it says | here |
 //! |---|---|---|
@@ -21,16 +21,16 @@
 //! | eq. (17), eq. (18) | camera response | [`camera::CameraResponse`] |
 //! | eq. (15), eq. (24) | facet RGB, one reflectance per facet | [`paper::nonuniform`] |
 //! | eq. (24) | the same, one reflectance per panel | [`forward::FacetModel::facet_rgb`] |
-//! | eq. (24) | the same, known parts of a surface beside an unknown one | [`surfaces::ReducedExchange::with_known`] |
+//! | eq. (24) | the same, known parts of a surface next to an unknown one | [`surfaces::ReducedExchange::with_known`] |
 //! | eqs. (26) to (28) | one reflectance: modes of the kernel | [`response::Response`] |
 //! | eqs. (33) to (35) | RGB as modes times functions of r | [`forward::model`] |
 //! | eq. (36) | the estimate as a bounded minimum | [`paper::smooth`]; [`estimate::map`] with a better prior |
 //! | - | the rivals of section 5C, on flat sheets | [`paper::park`], [`paper::khan`] |
 //! | eq. (37), eq. (38) | RMSE, "Pearson distance" | [`score`] |
 //!
-//! Two rooms can be left out of a first reading: [`paper`], the method as published and its rivals, and
-//! [`surfaces`], what is no fold. Use runs one way, downwards; the tools in `src/bin` stand above all,
-//! [`error`] below all:
+//! Two modules can be skipped on a first reading: [`paper`], the method as published and its rivals, and
+//! [`surfaces`], shapes other than folds. Dependencies point downwards only; the tools in `src/bin` are above
+//! all others, [`error`] is below:
 //!
 //! ```text
 //! report               -> scene, stream, estimate, score, plot, image, colorimetry, spectrum, files, markup
@@ -57,9 +57,9 @@
 //! progress, markup     -> message
 //! ```
 //!
-//! A chart's polynomials (section 5D) are in [`calibrate`], which knows nothing but patches. JSON is known to
-//! [`stream`] alone, that of spectra included; other files of spectra to [`spectrum::formats`]; pixels to
-//! [`image`] alone, bounds and priors without optics to [`solve`].
+//! The chart's polynomials (section 5D) are in [`calibrate`], which knows only patches. Only [`stream`] knows
+//! JSON, including that of spectra; [`spectrum::formats`] knows other files of spectra, [`image`] alone knows
+//! pixels, and [`solve`] knows bounds and priors but no optics.
 
 pub mod calibrate;
 pub mod camera;

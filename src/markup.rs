@@ -2,8 +2,8 @@
 
 use crate::message;
 
-/// A text that shows letter by letter where XML holds it: what [`message::printable`] escapes is escaped, and
-/// what is no character at all is replaced.
+/// A text that XML shows letter by letter: characters escaped by [`message::printable`] are escaped, and
+/// noncharacters are replaced.
 ///
 /// # Example
 /// ```
@@ -22,7 +22,7 @@ pub fn printable(text: &str) -> String {
 /// ```
 #[must_use]
 pub fn escaped(text: &str) -> String {
-    // the ampersand first: it is in the names of the others
+    // the ampersand first: it occurs in the names of the others
     let names = [('&', "&amp;"), ('<', "&lt;"), ('>', "&gt;"), ('"', "&quot;")];
     names.iter().fold(printable(text), |text, (letter, name)| text.replace(*letter, name))
 }

@@ -1,11 +1,11 @@
-//! Messages for people, each on a line of its own.
+//! Messages for people, one line each.
 
 use std::borrow::Cow;
 
 use crate::error::cut;
 
-/// A message as one line that a terminal shows as it is: what [`printable`] escapes, which names in files may
-/// hold, is escaped, and what is longer than any message is cut in the middle.
+/// A message as one line that a terminal shows unchanged: characters escaped by [`printable`], which names in
+/// files may contain, are escaped, and a text longer than any message is cut in the middle.
 ///
 /// # Example
 /// ```
@@ -21,8 +21,8 @@ pub fn one_line(message: &str) -> String {
 }
 
 /// A text that a terminal or a spreadsheet shows letter by letter, from left to right and on one line:
-/// control characters (C0, C1, DEL), line separators and marks of writing direction (Unicode Standard Annex
-/// #9) as visible escapes.
+/// control characters (C0, C1, DEL), line separators and marks of writing direction (Unicode Standard
+/// Annex #9) become visible escapes.
 ///
 /// # Example
 /// ```
@@ -42,7 +42,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     text.chars().map(shown).collect()
 }
 
-/// Whether a spreadsheet would take a text for a formula, and run it.
+/// True if a spreadsheet would take a text for a formula and run it.
 ///
 /// # Example
 /// ```
@@ -54,7 +54,7 @@ pub fn is_formula(text: &str) -> bool {
     text.trim_start().starts_with(['=', '+', '-', '@'])
 }
 
-/// Whether a letter is none, but acts on those around it.
+/// True for a character that is not printed but acts on those around it.
 fn misleads(letter: char) -> bool {
     let turns = matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}');
     let isolates = ('\u{2066}'..='\u{2069}').contains(&letter);

@@ -1,29 +1,30 @@
-//! Work on all threads whose results leave in the order of the work.
+//! Parallel work whose results are delivered in the order of the work.
 
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 
 use crate::error::{Error, Result};
 
-/// An item of which the result is known, or is to be worked out.
+/// An item whose result is known, or must be computed.
 pub enum Item<I, O> {
     /// The result.
     Known(O),
-    /// What it is worked out from.
+    /// What the result is computed from.
     ToDo(I),
-    /// Nothing: so much less is ahead while what comes before it is in memory, because that is large.
+    /// Nothing: a placeholder that reduces the number of items ahead while a large item before it is in
+    /// memory.
     Place,
 }
 
-/// Does `work` on items on all threads and hands the results to `done` in the order of the items, each as
-/// soon as it and those before it are there.
+/// Runs `work` on items on all threads and passes the results to `done` in the order of the items, each as
+/// soon as it and those before it are available.
 ///
-/// Items are drawn on a thread of their own, so that a slow source holds nothing back; no more than `ahead`
-/// (1 or more) are in work or wait for those before them, which bounds memory.
+/// Items are drawn on a separate thread, so that a slow source delays nothing else. At most `ahead` (1 or
+/// more) are being processed or waiting for those before them, which bounds memory.
 ///
 /// # Errors
-/// [`Error::Numeric`] if there is no thread to be had; that of `done`, after which no item is drawn but the
-/// one that is waited for.
+/// [`Error::Numeric`] if no thread can be started; an error of `done`, after which only an item already being
+/// awaited is drawn.
 ///
 /// # Example
 /// ```
@@ -40,7 +41,7 @@ pub fn in_order<I: Send, O: Send>(
     mut done: impl FnMut(O) -> Result<()>,
 ) -> Result<()> {
     let work = &work;
-    // The result that is waited for is out of the queue.
+    // The result being awaited is not in the queue.
     let (queue, results) = sync_channel::<Receiver<Option<O>>>(ahead - 1);
     thread::scope(|threads| {
         let draw = move || {
@@ -63,7 +64,7 @@ pub fn in_order<I: Send, O: Send>(
         drawing.map_err(|error| {
             Error::Numeric(format!("the system gives no thread ({error}); allow more memory or processes"))
         })?;
-        // A place stays empty if its work panicked: the scope passes that on.
+        // A place stays empty if its work panicked; the scope passes the panic on.
         results.into_iter().map_while(|place| place.recv().ok()).flatten().try_for_each(&mut done)
     })
 }

@@ -1,4 +1,4 @@
-//! A line on standard error that says how far a long run is.
+//! A line on standard error that shows the progress of a long run.
 
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
@@ -12,37 +12,37 @@ use crate::message::one_line;
 
 /// Runs shorter than this show nothing.
 const DELAY: Duration = Duration::from_millis(500);
-/// How often the line is drawn though nothing happens.
+/// Interval at which the line is redrawn even if nothing happens.
 const REDRAW: Duration = Duration::from_millis(500);
-/// How far lines in a file are apart.
+/// Interval between lines in a file.
 const LOG_INTERVAL: Duration = Duration::from_secs(10);
 
-/// The line that is being drawn, of which a process has one.
+/// The line being drawn; a process has only one.
 static LINE: OnceLock<ProgressBar> = OnceLock::new();
 
 /// When progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum When {
-    /// On a terminal, by the tool at the end of a pipeline whose records go to a file: no two tools share the
-    /// line.
+    /// On a terminal, by the tool at the end of a pipeline whose records go to a file, so that no two tools
+    /// share the line.
     Auto,
-    /// Whatever standard error is: redrawn on a terminal, else a line now and then, and the total at the end.
+    /// Whatever standard error is: redrawn on a terminal, else a line now and then and the total at the end.
     Always,
     /// Never.
     Never,
 }
 
-/// Counts samples, and shows how many there are, how fast they pass and how long it takes.
+/// Counts samples and shows their number, their rate and the remaining time.
 #[derive(Debug)]
 pub struct Progress {
     tool: String,
     bar: ProgressBar,
-    /// When the next line is due, where there is no terminal.
+    /// When the next line is due, if there is no terminal.
     next: Option<Instant>,
 }
 
 impl Progress {
-    /// The progress of `tool`; `to_file` says whether its records go to a file of their own.
+    /// The progress of `tool`; `to_file` is true if its records go to a file of their own.
     #[must_use]
     pub fn new(tool: &str, when: When, to_file: bool) -> Self {
         let to_file = to_file || Path::new("/dev/stdout").metadata().is_ok_and(|out| out.is_file());
@@ -53,7 +53,7 @@ impl Progress {
         Self { tool: tool.to_owned(), bar, next }
     }
 
-    /// Says how many samples there will be.
+    /// Sets the expected number of samples.
     pub fn expect(&mut self, samples: usize) {
         self.bar.set_length(samples as u64);
     }
@@ -67,7 +67,7 @@ impl Progress {
         }
     }
 
-    /// Leaves the total in place of the line.
+    /// Replaces the line by the total.
     pub fn finish(&mut self) {
         let (shown, elapsed) = (!self.bar.is_hidden(), self.bar.elapsed());
         self.bar.finish_and_clear();
@@ -84,22 +84,23 @@ impl Progress {
 }
 
 impl Drop for Progress {
-    /// A run that ends with an error leaves no line before it.
+    /// A run that ends with an error leaves no line before the message.
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
 }
 
-/// Writes a line to standard error, above that of the progress; unlike `eprintln!` it survives a closed one.
+/// Writes a line to standard error, above that of the progress; unlike `eprintln!` it survives a closed
+/// stream.
 pub fn say(tool: &str, message: &str) {
     let write = || drop(writeln!(io::stderr(), "{tool}: {}", one_line(message)));
     LINE.get().map_or_else(write, |line| line.suspend(write));
 }
 
-/// A line on the terminal, of nothing at first.
+/// A line on the terminal, empty at first.
 fn drawn(tool: &str) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(5));
-    // the one error is that of a template which cannot be read
+    // the only possible error is a template that cannot be parsed
     if let Ok(style) = ProgressStyle::with_template("{progress}") {
         let tool = tool.to_owned();
         bar.set_style(style.with_key("progress", move |state: &ProgressState, line: &mut dyn fmt::Write| {
@@ -124,7 +125,7 @@ fn write_line(tool: &str, state: &ProgressState, line: &mut dyn fmt::Write) -> f
     }
 }
 
-/// Samples that have passed, and of how many if that is known.
+/// The number of samples so far, and the total if it is known.
 struct Count {
     samples: u64,
     of: Option<u64>,

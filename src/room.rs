@@ -1,16 +1,16 @@
-//! Room in memory, asked for before it is needed.
+//! Memory, requested before it is needed.
 //!
-//! Where memory is limited (`ulimit -v`), a program that takes more than there is ends on the spot, without a
-//! word of its own. Who is about to take a great deal asks here first.
+//! Where memory is limited (`ulimit -v`), a program that exceeds the limit ends at once, without a message of
+//! its own. Code that is about to allocate a great deal asks here first.
 
 use std::hint::black_box;
 
 use crate::error::{Error, Result};
 
-/// Whether there is room for so many bytes now.
+/// Checks that `bytes` of memory are available now.
 ///
 /// # Errors
-/// [`Error::Memory`] with `what` wants them and what to do instead, if there is not.
+/// [`Error::Memory`] if they are not, with the purpose (`what`) and the `remedy`.
 ///
 /// # Example
 /// ```
@@ -22,7 +22,7 @@ use crate::error::{Error, Result};
 pub fn ask(bytes: u64, what: &str, remedy: &'static str) -> Result<()> {
     let mut room = Vec::<u8>::new();
     let there_is = usize::try_from(bytes).is_ok_and(|bytes| room.try_reserve_exact(bytes).is_ok());
-    // Room that nobody looks at is not asked for in optimised builds.
+    // An unused allocation would be removed from optimised builds.
     black_box(&room);
     if there_is {
         return Ok(());

@@ -1,5 +1,4 @@
-//! The same facets under each of several things that may be so: one family of models, of which each is a
-//! hypothesis.
+//! The same facets under several alternatives: one family of models, with each alternative a hypothesis.
 
 use super::data::FacetData;
 use super::facets::{Facets, Second};
@@ -7,7 +6,7 @@ use super::family::Family;
 use super::gaussian::Gaussian;
 use super::prior::Prior;
 
-/// The facets as data of each alternative, at least one. What they take of the bounces is the same in all.
+/// The facets as data under each alternative, at least one. Their weights of the terms are the same in all.
 pub struct Alternatives<'a>(pub Vec<FacetData<'a>>);
 
 impl Family for Alternatives<'_> {
@@ -38,7 +37,7 @@ impl Family for Alternatives<'_> {
         self.0[0].tolerance()
     }
 
-    /// One alone is no alternative.
+    /// A single alternative is none.
     fn has_many_hypotheses(&self) -> bool {
         self.0.len() > 1
     }

@@ -1,5 +1,5 @@
-//! The built-in prior: kinds of spectra, of paint and cloth, leaves, skin, paper and prints, as
-//! `share/make-prior.py` made them.
+//! The built-in prior: classes of spectra of paint and cloth, leaves, skin, paper and prints, as made by
+//! `share/make-prior.py`.
 
 use half::f16;
 use nalgebra::{DMatrix, DVector};
@@ -14,17 +14,17 @@ const FIRST_NM: f64 = 380.0;
 const STEP_NM: f64 = 5.0;
 const BANDS: usize = 81;
 
-/// A class of the table on some wavelengths.
+/// A class of the table, interpolated to some wavelengths.
 pub struct TabledClass {
-    /// Logarithm of its share of all spectra.
+    /// Logarithm of its prior probability.
     pub ln_share: f64,
     /// Mean logit in every waveband.
     pub mean: DVector<f64>,
-    /// Waveband by factor; its product with its transpose is the covariance.
+    /// Waveband by factor: a square root of the covariance, which is its product with its transpose.
     pub factors: DMatrix<f64>,
 }
 
-/// Classes of the table on `wavelengths_nm`, linear between its own; the last is all spectra together.
+/// Classes of the table on `wavelengths_nm`, interpolated linearly; the last is all spectra together.
 ///
 /// # Errors
 /// [`Error::Spectrum`] if the table does not cover the wavelengths.
@@ -60,7 +60,7 @@ pub fn classes_on(wavelengths_nm: &[f64]) -> Result<Vec<TabledClass>> {
     Ok(shares.iter().zip(numbers.chunks_exact(BANDS * rows)).map(class).collect())
 }
 
-/// The sample of the table to the left of a place, and how far on from it the place is.
+/// The table sample to the left of a position, and the distance of the position beyond it.
 fn place(samples: f64) -> (usize, f64) {
     let left = (samples as usize).min(BANDS - 2);
     (left, samples - left as f64)

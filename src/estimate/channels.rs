@@ -1,18 +1,18 @@
-//! What compressed data take of the terms of the reflectance: linear maps, one per channel and source.
+//! Linear maps from the terms of the reflectance to compressed data, one per channel and source.
 
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-/// What one channel's compressed data take of the terms, and the camera's weights: one of each for every
-/// source.
+/// The maps from the terms to one channel's compressed data, and the camera's weights per waveband: one of
+/// each per source.
 #[derive(Clone)]
 pub struct ChannelModel {
     pub sources: Vec<DMatrix<f64>>,
     pub weights: Vec<DVector<f64>>,
 }
 
-/// The channels, their data one after another.
+/// The channels, whose data follow one another.
 #[derive(Clone)]
 pub struct Channels(pub Vec<ChannelModel>);
 
@@ -26,7 +26,7 @@ impl Channels {
         self.0[0].sources.len()
     }
 
-    /// Model of the compressed data at exposure 1, each source in the amount 1: datum by source.
+    /// Model of the compressed data at exposure 1 for each source in amount 1: datum by source.
     pub fn parts_of(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
         let mut parts = DMatrix::zeros(self.len(), self.sources());
         self.each_part(|rows, source, compressed, weights| {
@@ -36,7 +36,8 @@ impl Channels {
         parts
     }
 
-    /// Sum of the sources in these amounts, per waveband, and `more` columns of zeros.
+    /// Contribution of each waveband, summed over the sources in these amounts: datum by waveband, followed
+    /// by `more` columns of zeros.
     pub fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
         let mut columns = DMatrix::zeros(self.len(), terms.nrows() + more);
         let terms = terms.transpose();
@@ -51,7 +52,7 @@ impl Channels {
         columns
     }
 
-    /// `Σ λᵢ` times the model, per waveband, without forming its columns.
+    /// `Σ λᵢmᵢ` per waveband, without forming the model's columns.
     pub fn along(
         &self,
         multipliers: &DVector<f64>,
@@ -66,8 +67,8 @@ impl Channels {
         along
     }
 
-    /// Visits every channel under every source: its rows of the compressed data, the source, what the rows
-    /// take of the terms, and the camera's weights in every waveband.
+    /// Visits every channel under every source: its rows of the compressed data, the source, the map from the
+    /// terms to the rows, and the camera's weights per waveband.
     fn each_part(&self, mut visit: impl FnMut(Range<usize>, usize, &DMatrix<f64>, &DVector<f64>)) {
         let mut start = 0;
         for channel in &self.0 {

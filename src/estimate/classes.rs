@@ -1,38 +1,37 @@
-//! Kinds of reflectances: a set of spectra divided into classes, each near Gaussian in logit.
+//! Divides a set of reflectances into classes, each nearly Gaussian in logit.
 //!
-//! Reds, greens, greys: what a spectrum does at one end tells far more of the other end once its kind is
-//! known.
+//! Once the class of a spectrum is known (reds, greens, greys), one end of it says far more about the other.
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 use crate::solve::Eigen;
 
-/// Most rounds of halving: eight classes.
+/// Maximum number of halvings: eight classes.
 const HALVINGS: u32 = 3;
-/// A class is halved if the whole set has that many spectra for each of the halves.
+/// Number of spectra that the set must have for each half before classes are halved.
 const SPECTRA_A_CLASS: usize = 80;
-/// Principal coordinates of the set in which classes are distinguished.
+/// Number of principal coordinates in which classes are distinguished.
 const COORDINATES: usize = 15;
 /// Passes of expectation maximisation.
 const PASSES: usize = 40;
-/// What pulls the covariance of a small class towards that of the set: this many spectra, of a tenth of its
-/// variance.
+/// Shrinkage of a small class's covariance towards that of the set: equivalent to this many spectra with a
+/// tenth of the set's variance.
 const SHRINKAGE: f64 = 5.0;
 const SHRUNK_VARIANCE: f64 = 0.1;
 
-/// Classes of the built-in Munsell chips, in their order: what [`divide`] finds from 400 to 700 nm by 5, kept
-/// because it takes longer than many estimates. `share/make-munsell.rs` wrote them.
+/// Classes of the built-in Munsell chips, in their order, as [`divide`] finds them from 400 to 700 nm by 5.
+/// They are stored because finding them takes longer than many estimates; `share/make-munsell.rs` wrote them.
 #[must_use]
 pub fn of_munsell() -> Vec<usize> {
     let digits = include_str!("../../share/munsell1269-classes.txt");
     digits.lines().filter_map(|class| class.parse().ok()).collect()
 }
 
-/// The class of every spectrum, a column of `logits` (waveband by spectrum) each. `spread` is the covariance
-/// of what spectra do beyond their class. Sets of fewer than 160 spectra are one class.
+/// The class of every spectrum, given as columns of `logits` (waveband by spectrum). `spread` is the
+/// covariance of spectra beyond their class. Sets of fewer than 160 spectra form one class.
 ///
 /// # Source
-/// Halved along principal axes, then a Gaussian mixture by expectation maximisation (Bishop, *Pattern
+/// Halving along principal axes, then a Gaussian mixture by expectation maximisation (Bishop, *Pattern
 /// Recognition and Machine Learning*, 2006, section 9.2).
 #[must_use]
 pub fn divide(logits: &DMatrix<f64>, spread: &DMatrix<f64>) -> Vec<usize> {
@@ -53,7 +52,7 @@ pub fn divide(logits: &DMatrix<f64>, spread: &DMatrix<f64>) -> Vec<usize> {
     memberships.column_iter().map(|column| column.imax()).collect()
 }
 
-/// Mean, and covariance about it, of weighted columns.
+/// Mean of weighted columns, and covariance about it.
 pub(super) fn moments(columns: &DMatrix<f64>, weights: &RowDVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
     let total = weights.sum().max(f64::MIN_POSITIVE);
     let mean = columns * weights.transpose() / total;
@@ -66,7 +65,7 @@ pub(super) fn moments(columns: &DMatrix<f64>, weights: &RowDVector<f64>) -> (DVe
     (mean, covariance)
 }
 
-/// Covariance of a class of `count` spectra, pulled towards that of the set.
+/// Covariance of a class of `count` spectra, shrunk towards that of the set.
 pub(super) fn shrunk(covariance: &DMatrix<f64>, count: f64, of_set: &DMatrix<f64>) -> DMatrix<f64> {
     (covariance * count + of_set * (SHRINKAGE * SHRUNK_VARIANCE)) / (count + SHRINKAGE)
 }
@@ -80,7 +79,7 @@ fn leading_axes(covariance: DMatrix<f64>, count: usize) -> DMatrix<f64> {
     DMatrix::from_columns(&columns)
 }
 
-/// Every class in two, across its principal axis.
+/// Splits every class in two across its principal axis.
 fn halve(points: &DMatrix<f64>, classes: &[usize]) -> Vec<usize> {
     let mut halves: Vec<usize> = classes.iter().map(|class| 2 * class).collect();
     for class in 0..=classes.iter().copied().max().unwrap_or(0) {
@@ -99,7 +98,7 @@ fn halve(points: &DMatrix<f64>, classes: &[usize]) -> Vec<usize> {
     halves
 }
 
-/// Probability of each class for each point, from the moments that the old ones give: class by point.
+/// Class by point: probabilities of the classes, given the moments that follow from the old ones.
 fn reassess(points: &DMatrix<f64>, spread: &DMatrix<f64>, memberships: &DMatrix<f64>) -> DMatrix<f64> {
     let everything = RowDVector::from_element(points.ncols(), 1.0);
     let (_, of_set) = moments(points, &everything);
@@ -107,7 +106,7 @@ fn reassess(points: &DMatrix<f64>, spread: &DMatrix<f64>, memberships: &DMatrix<
     for (k, weights) in memberships.row_iter().enumerate() {
         let (mean, covariance) = moments(points, &weights.into_owned());
         let covariance = shrunk(&covariance, weights.sum(), &of_set) + spread;
-        // A covariance that rounding has ruined takes no points.
+        // A covariance ruined by rounding takes no points.
         let Some(factor) = covariance.cholesky() else { continue };
         let mut centred = points.clone();
         centred.column_iter_mut().for_each(|mut column| column -= &mean);

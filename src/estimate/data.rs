@@ -1,8 +1,8 @@
-//! Facet RGB as data to fit, compressed to what the noise lets through.
+//! Facet RGB as data to fit, compressed to what exceeds the noise.
 //!
 //! All facets combine the same few terms of the reflectance, so hundreds of facet values hold a dozen numbers
-//! per channel (the rank of the terms over reflectances from 0 to 1, seen through the noise); the rest is
-//! noise alone and is left out.
+//! per channel (the rank of the terms over reflectances from 0 to 1, given the noise). The rest is pure noise
+//! and omitted.
 
 use std::borrow::Cow;
 
@@ -20,8 +20,8 @@ use crate::estimate::unknowns::{Amounts, Normal, SceneModel};
 
 /// The problem of one sample: weighted, compressed data and the model that predicts them.
 ///
-/// A point of the model is a reflectance in every waveband, and a standard normal number for each unknown of
-/// the scene.
+/// A point of the model is a reflectance per waveband and a standard normal number for each unknown of the
+/// scene.
 #[derive(Clone)]
 pub struct FacetData<'a> {
     scene: Cow<'a, SceneModel>,
@@ -33,9 +33,9 @@ pub struct FacetData<'a> {
     count: usize,
     peak: f64,
     sums: SumRule,
-    /// What the sheet may send out itself; none where that is not asked.
+    /// Possible emission of the sheet; `None` if it is not considered.
     emission: Option<Emission>,
-    /// Whether it may fluoresce at all.
+    /// True if the sheet may fluoresce at all.
     may_fluoresce: bool,
 }
 
@@ -54,7 +54,7 @@ pub struct Residuals {
     pub exposure: f64,
 }
 
-/// Residuals with the derivatives of the model: one column per waveband by its reflectance, then one per
+/// Residuals and the derivatives of the model: a column per waveband for its reflectance, then one per
 /// unknown of the scene.
 pub struct LinearisedFacets {
     /// Data minus model.
@@ -63,22 +63,22 @@ pub struct LinearisedFacets {
     pub jacobian: DMatrix<f64>,
     /// The exposure used.
     pub exposure: FittedExposure,
-    /// For [`FacetData::curvature`].
+    /// Input of [`FacetData::curvature`].
     pub second: SecondDerivatives,
 }
 
-/// An exposure as found from the facets.
+/// An exposure fitted to the facets.
 pub struct FittedExposure {
     /// Value.
     pub value: f64,
-    /// How far it moves with reflectances and unknowns, columns as in the Jacobian.
+    /// Its derivatives by reflectances and unknowns, columns as in the Jacobian.
     pub slopes: DVector<f64>,
-    /// Its own standard deviation, all else known.
+    /// Its standard deviation if all else is known.
     pub sd: f64,
 }
 
-/// What second derivatives at a point are made of: exposure, amounts of the sources, the model of each at
-/// exposure 1, and derivatives of the terms.
+/// Ingredients of second derivatives at a point: exposure, amounts of the sources, the model of each source
+/// at exposure 1, and derivatives of the terms.
 pub struct SecondDerivatives {
     exposure: f64,
     amounts: Amounts,
@@ -88,13 +88,13 @@ pub struct SecondDerivatives {
     emitted: Option<Emitted>,
 }
 
-/// What the sheet sends out at a point.
+/// Emission of the sheet at a point.
 struct Emitted {
     sent: Sent,
     made: Made,
 }
 
-/// `Σ λᵢ∇²mᵢ`; wavebands do not mix.
+/// `Σ λᵢ∇²mᵢ`, which does not mix wavebands.
 pub struct Curvature {
     /// `Σ λᵢ ∂mᵢ/∂r` per waveband.
     pub slopes: DVector<f64>,
@@ -106,8 +106,8 @@ pub struct Curvature {
     pub unknowns: DMatrix<f64>,
 }
 
-/// What directions of the model are weighed with: the exposure or, where it is to be found, no less than the
-/// brightest facet. At an exposure below 1 a few more directions are kept than the noise lets through.
+/// Brightness used to weigh directions of the model, at least 1: the exposure or, if that is fitted, the
+/// brightest facet. At an exposure below 1 a few more directions are kept than exceed the noise.
 fn brightness(measured: &Measured, exposure: Exposure) -> f64 {
     match exposure {
         Exposure::Known(exposure) => exposure.max(1.0),
@@ -115,14 +115,14 @@ fn brightness(measured: &Measured, exposure: Exposure) -> f64 {
     }
 }
 
-/// Most steps to the exposure that fits best, and the relative change that counts: from the second on they
-/// gain two digits each.
+/// Maximum number of steps to the best exposure, and the relative change at convergence: from the second on,
+/// each step gains two digits.
 const EXPOSURE_STEPS: usize = 20;
 const EXPOSURE_TOLERANCE: f64 = 1e-12;
 
 impl<'a> FacetData<'a> {
-    /// Weights and compresses the facets of a sample; directions in which no reflectance moves the data by
-    /// more than `cutoff` standard deviations are left out.
+    /// Weights and compresses the facets of a sample, omitting directions in which no reflectance moves the
+    /// data by more than `cutoff` standard deviations.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if facets, channels or values do not fit the scene, or no facet was measured.
@@ -164,14 +164,14 @@ impl<'a> FacetData<'a> {
         })
     }
 
-    /// The same data of a sheet that is known to send out nothing itself.
+    /// The same data for a sheet that is known not to emit light.
     #[must_use]
     pub fn without_fluorescence(self) -> Self {
         Self { may_fluoresce: false, ..self }
     }
 
-    /// The same data of a sheet that may send out light itself, the unknowns of which follow those of the
-    /// scene. None where the exposure is what makes sums alike, or a part of the surface is known.
+    /// The same data for a sheet that may emit light, with the unknowns of the emission after those of the
+    /// scene. `None` if the exposure is determined by sums, or a part of the surface is known.
     #[must_use]
     pub fn emitting(&self, emission: &Emission) -> Option<Self> {
         self.may_emit().then(|| Self { emission: Some(emission.clone()), ..self.clone() })
@@ -181,8 +181,8 @@ impl<'a> FacetData<'a> {
         self.may_fluoresce && self.exposure != Exposure::Sum && self.scene.facets().signed_poles().is_some()
     }
 
-    /// How residuals of a sheet that sends out nothing change with each of what it may send out, at its usual
-    /// size; empty where that is not asked.
+    /// Changes of the residuals of a sheet without emission caused by each of these emissions at its usual
+    /// size; empty if emission is not considered.
     #[must_use]
     pub fn changes_with(
         &self,
@@ -196,7 +196,7 @@ impl<'a> FacetData<'a> {
         let terms = self.scene.facets().terms_of(reflectance);
         let amounts = self.scene.amounts(unknowns).values();
         let values = self.channels.parts_of(&terms) * &amounts;
-        // datum by waveband, each sending out as much as white reflects
+        // datum by waveband, for emission equal to white in each
         let by_band =
             self.channels.columns_of(&made(reflectance, &terms, &self.signed_poles(), 0), &amounts, 0);
         let of_sheet = |emission: &Emission| {
@@ -212,82 +212,82 @@ impl<'a> FacetData<'a> {
         emissions.iter().map(change).collect()
     }
 
-    /// What the sheet may send out itself; none where that is not asked.
+    /// The possible emission of the sheet; `None` if it is not considered.
     #[must_use]
     pub fn emission(&self) -> Option<&Emission> {
         self.emission.as_ref()
     }
 
-    /// Number of unknowns, those of what the sheet sends out included.
+    /// Number of unknowns, including those of the emission.
     #[must_use]
     pub fn unknowns(&self) -> usize {
         self.scene.unknowns().len() + self.emission.as_ref().map_or(0, Emission::unknowns)
     }
 
-    /// What the sheet sends out; none if nothing.
+    /// The emission of the sheet; `None` without any.
     fn sent(&self, unknowns: &[f64]) -> Option<(&Emission, Sent)> {
         let emission = self.emission.as_ref().filter(|emission| emission.unknowns() > 0)?;
         Some((emission, emission.at(&unknowns[self.scene.unknowns().len()..])))
     }
 
-    /// What the sheet sends out at a point, `terms` being those of what it reflects with their derivatives;
-    /// none if nothing.
+    /// The emission of the sheet at a point, given the terms of reflected light and their derivatives; `None`
+    /// without any.
     fn emitted(&self, reflectance: &[f64], unknowns: &[f64], terms: [&DMatrix<f64>; 3]) -> Option<Emitted> {
         let (emission, sent) = self.sent(unknowns)?;
         let power = emission.power_of_reflectance();
         Some(Emitted { sent, made: Made::of(reflectance, terms, &self.signed_poles(), power) })
     }
 
-    /// Poles with their signs, one per term.
+    /// Signed poles, one per term.
     fn signed_poles(&self) -> Vec<f64> {
         self.scene.facets().signed_poles().unwrap_or_default()
     }
 
-    /// How many numbers are left, and of how many facet values.
+    /// Number of compressed data, and of the facet values behind them.
     #[must_use]
     pub fn size(&self) -> (usize, usize) {
         (self.values.len(), self.count)
     }
 
-    /// Channels of the camera in all lights together.
+    /// Number of the camera's channels in all lights together.
     #[must_use]
     pub fn channels(&self) -> usize {
         self.channels.0.len()
     }
 
-    /// Root mean square of all residuals of facets, those outside the compressed data included.
+    /// Root mean square of all facet residuals, including those outside the compressed data.
     #[must_use]
     pub fn rms(&self, residuals: &DVector<f64>) -> f64 {
         let of_facets = self.of_facets(residuals).norm_squared();
         ((of_facets + self.outside.max(0.0)) / self.count as f64).sqrt()
     }
 
-    /// The residuals without that of the exposure that was expected.
+    /// The residuals without that of the expected exposure.
     fn of_facets<'r>(&self, residuals: &'r DVector<f64>) -> DVectorView<'r, f64> {
         residuals.rows(0, self.values.len())
     }
 
-    /// The residuals as a share of the data, both without what no reflectance can do, which is noise.
+    /// Residuals relative to the data, both without the noise that no reflectance can explain.
     #[must_use]
     pub fn unexplained(&self, residuals: &DVector<f64>) -> f64 {
         self.of_facets(residuals).norm() / self.values.norm().max(f64::MIN_POSITIVE)
     }
 
-    /// The scene and what is unknown of it.
+    /// The scene and its unknowns.
     #[must_use]
     pub fn scene(&self) -> &SceneModel {
         &self.scene
     }
 
-    /// The same data with one unknown of the scene known to have this value.
+    /// The same data with one unknown of the scene fixed at this value.
     #[must_use]
     pub fn with_known(&self, unknown: usize, value: f64) -> Self {
         let scene = self.scene.clone().into_owned().with_known(unknown, value);
         Self { scene: Cow::Owned(scene), ..self.clone() }
     }
 
-    /// The same data in another light, as the camera responds to it. What the facets take of the bounces, and
-    /// so the compression, is the same.
+    /// The same data in another light, given the camera's response to it. The facets' weights of the terms,
+    /// and hence the compression, are unchanged.
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
         let seen = |(n, channel): (usize, &ChannelModel)| {
@@ -298,19 +298,19 @@ impl<'a> FacetData<'a> {
         Self { scene: Cow::Owned(self.scene.in_light(camera)), channels, ..self.clone() }
     }
 
-    /// The same data with something known of the logarithm of the exposure, if nothing was.
+    /// The same data with a prior on the logarithm of the exposure, if it was entirely unknown.
     #[must_use]
     pub fn expecting(self, exposure: Normal) -> Self {
         Self { exposure: self.exposure.or_expected(Some(exposure)), ..self }
     }
 
-    /// Whether the exposure is found from the facets.
+    /// True if the exposure is fitted to the facets.
     #[must_use]
     pub fn fits_exposure(&self) -> bool {
         matches!(self.exposure, Exposure::Free | Exposure::Expected(_))
     }
 
-    /// How far an exposure is from the one that was expected, in standard deviations; 0 if none was.
+    /// Distance of an exposure from the expected one in standard deviations; 0 if none was expected.
     fn exposure_off(&self, exposure: f64) -> f64 {
         match self.exposure {
             Exposure::Expected(Normal { mean, sd }) => (exposure.ln() - mean) / sd,
@@ -338,9 +338,8 @@ impl<'a> FacetData<'a> {
     /// Residuals at a point, with the derivatives of the model.
     ///
     /// # Source
-    /// An exposure that is not known: Kaufman's approximation to the derivatives of variable projection
-    /// (*BIT* 15, 1975, p. 49). What was expected of its logarithm is one more datum, which nothing but the
-    /// exposure changes.
+    /// For an unknown exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15,
+    /// 1975, p. 49). The prior on its logarithm is one more datum, which depends on nothing but the exposure.
     #[must_use]
     pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
         let [mut terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
@@ -364,7 +363,7 @@ impl<'a> FacetData<'a> {
             }
         }
         jacobian *= exposure;
-        // What a relative change of the exposure does.
+        // Effect of a relative change of the exposure.
         let mut by_exposure = exposure * &values;
         if let Exposure::Expected(Normal { sd, .. }) = self.exposure {
             by_exposure = by_exposure.push(sd.recip());
@@ -378,7 +377,7 @@ impl<'a> FacetData<'a> {
             }
             Exposure::Sum => (self.shares_of_sum(&terms, &slopes, &now, &by_unknown), 0.0),
         };
-        // What a change of the spectrum does beyond what a change of exposure undoes.
+        // Effect of a change of the spectrum beyond what a change of exposure compensates.
         jacobian.ger(-1.0, &by_exposure, &relative, 1.0);
         LinearisedFacets {
             residuals: self.left_over(exposure, &values),
@@ -444,13 +443,12 @@ impl<'a> FacetData<'a> {
         }
     }
 
-    /// The exposure that is nearest to the facets.
+    /// The exposure that fits the facets best.
     fn best_exposure(&self, values: &DVector<f64>) -> f64 {
         values.dot(&self.values) / values.norm_squared().max(f64::MIN_POSITIVE)
     }
 
-    /// The exposure that is nearest to the facets and to what was expected of it together, by Gauss and
-    /// Newton's steps of its logarithm.
+    /// The exposure that best fits the facets and its prior together, by Gauss-Newton steps in its logarithm.
     fn expected_exposure(&self, values: &DVector<f64>, Normal { mean, sd }: Normal) -> f64 {
         let (square, product) = (values.norm_squared(), values.dot(&self.values));
         let best = self.best_exposure(values);
@@ -467,8 +465,8 @@ impl<'a> FacetData<'a> {
         ln_exposure.exp()
     }
 
-    /// Data minus model, `values` being those at exposure 1, then how far the exposure is from the one that
-    /// was expected, if any was.
+    /// Data minus model, given `values` of the model at exposure 1, followed by the deviation from the
+    /// expected exposure, if there is one.
     fn left_over(&self, exposure: f64, values: &DVector<f64>) -> DVector<f64> {
         let of_facets = &self.values - exposure * values;
         match self.exposure {
@@ -504,7 +502,7 @@ impl<'a> FacetData<'a> {
     }
 }
 
-/// Each row times a factor.
+/// Multiplies each row by a factor.
 fn scaled_rows<'f>(matrix: &DMatrix<f64>, factors: impl Iterator<Item = &'f f64> + Clone) -> DMatrix<f64> {
     let mut scaled = matrix.clone();
     for mut column in scaled.column_iter_mut() {

@@ -1,21 +1,21 @@
-//! What speaks against an estimate.
+//! Reasons to doubt an estimate.
 
-/// Reduced chi up to which facets are explained.
+/// Reduced chi below which facets are explained.
 pub const EXPLAINED: f64 = 2.0;
 
-/// How far an estimate can be trusted.
+/// Trustworthiness of an estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// Nothing speaks against it: its error bars hold, if light and camera are as stated.
+    /// No reason for doubt: the error bars hold if light and camera are as stated.
     Good,
-    /// Something speaks against it: it may be further off than its error bars.
+    /// There is a reason for doubt: errors may exceed the error bars.
     Doubtful,
-    /// The facets are not those of the scene: it means nothing.
+    /// The facets do not belong to the scene: the estimate is meaningless.
     Wrong,
 }
 
 impl Level {
-    /// As records and messages have it.
+    /// Name used in records and messages.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -26,19 +26,19 @@ impl Level {
     }
 }
 
-/// Something that speaks against an estimate.
+/// A reason to doubt an estimate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Doubt {
-    /// How much.
+    /// Its severity.
     pub level: Level,
-    /// What it is.
+    /// The reason.
     pub because: String,
     /// What to do.
     pub remedy: String,
 }
 
 impl Doubt {
-    /// One for which an estimate is [`Level::Doubtful`].
+    /// A doubt of level [`Level::Doubtful`].
     #[must_use]
     pub fn new(because: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self { level: Level::Doubtful, because: because.into(), remedy: remedy.into() }

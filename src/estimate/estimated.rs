@@ -10,52 +10,52 @@ use crate::kernel::skipped::Skipped;
 use crate::solve::Termination;
 use crate::solve::posterior::Iteration;
 
-/// An estimated spectrum and how it was reached.
+/// An estimated spectrum and how it was obtained.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// Reflectance in every waveband, in (0, 1].
     pub reflectance: Vec<f64>,
-    /// Bihemispherical albedo in every waveband, of a sheet that is not taken to be Lambertian.
+    /// Bihemispherical albedo per waveband, for a sheet that is not assumed to be Lambertian.
     pub albedo: Option<Vec<f64>>,
-    /// How far it may be off, one column per waveband: the product of its transpose with it is the covariance
-    /// of the reflectance. None from a method that has no model of its error.
+    /// Square root of the covariance of the reflectance, with one column per waveband: its transpose times
+    /// itself is the covariance. `None` for a method without an error model.
     pub spread: Option<DMatrix<f64>>,
-    /// Exposure: as known, or as found.
+    /// Exposure, known or fitted.
     pub exposure: f64,
-    /// Numbers of the scene that were found along with the spectrum.
+    /// Parameters of the scene fitted along with the spectrum.
     pub fitted: Vec<Fitted>,
-    /// What of a photograph is not ideal, what the facets are surest of first.
+    /// Deviations of a photograph from the ideal, the most certain first.
     pub findings: Vec<photograph::Finding>,
-    /// What was not looked at, or not determined by the facets of a photograph.
+    /// What was not examined, or not determined by the facets of a photograph.
     pub skipped: Vec<Skipped>,
-    /// Reduced chi: root mean square of the residuals, in units of their expected size; near 1 for a good
+    /// Reduced chi: root mean square of the residuals relative to their expected size, near 1 for a good
     /// model.
     pub residual_rms: f64,
-    /// Share of the light that the estimate leaves over, in what a reflectance can do to the facets at all.
+    /// Share of the light that the estimate leaves unexplained, within what a reflectance can do to the
+    /// facets.
     pub unexplained: f64,
-    /// The kind of day on which the photograph was taken, where that is looked for.
+    /// The kind of day on which the photograph was taken, if that was inferred.
     pub day: Option<photograph::day::DayEstimate>,
-    /// What the sheet sends out itself, if it probably does.
+    /// Emission of the sheet, if it probably has any.
     pub fluorescence: Option<Fluorescence>,
-    /// The light, where nobody stated it.
+    /// The light, if it was not stated.
     pub light: Option<light::InferredLight>,
-    /// Probability that no light bounces between the panels, as far as that is weighed.
+    /// Probability that no light bounces between the panels, as far as it was computed.
     pub without_bounces: f64,
-    /// Iterations.
+    /// Number of iterations.
     pub iterations: u32,
-    /// What happened in them, by runs: under all spectra, under the most probable class to where classes are
-    /// distinguished, then under each class that was tried. Empty from a method that keeps no trace.
+    /// Iterations by run: under all spectra, under the most probable class until classes are distinguished,
+    /// then under each class that was tried. Empty for a method without a trace.
     pub trace: Vec<Vec<Iteration>>,
     /// Why the solver stopped.
     pub termination: Termination,
 }
 
-/// What is stated of light and camera is right to that, as a part of the reflectance: no photograph tells
-/// more.
+/// Assumed accuracy of the stated light and camera, relative to the reflectance: no photograph reveals more.
 const STATED_LIGHT_AND_CAMERA: f64 = 0.02;
 
 impl Estimate {
-    /// The same with error bars that hold what light and camera may be off as stated.
+    /// The same with error bars that include the errors of the stated light and camera.
     #[must_use]
     pub fn in_stated_light(mut self, wavelengths_nm: &[f64]) -> Self {
         let sd: Vec<f64> = self.reflectance.iter().map(|r| STATED_LIGHT_AND_CAMERA * r).collect();

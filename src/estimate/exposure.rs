@@ -1,20 +1,19 @@
-//! How the exposure of a picture enters.
+//! The role of a picture's exposure.
 
 use super::normal::Normal;
 use super::photograph::priors::Priors;
 
-/// How the exposure of the picture enters.
+/// The role of a picture's exposure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
     /// Known: a perfect white diffuser facing the sun has this value in its strongest channel.
     Known(f64),
-    /// Unknown: the exposure that fits best, for every spectrum tried (variable projection, Golub and Pereyra
-    /// 1973).
+    /// Unknown: the best-fitting exposure for every spectrum tried (variable projection, Golub and
+    /// Pereyra 1973).
     Free,
-    /// Unknown, and its logarithm normal before the picture is looked at: the one that is most probable, for
-    /// every spectrum tried.
+    /// Unknown, with a normal prior on its logarithm: the most probable exposure for every spectrum tried.
     Expected(Normal),
-    /// Unknown: picture and model are divided by their sums, as the paper does (section 5D).
+    /// Unknown: picture and model are normalised by their sums, as in the paper (section 5D).
     Sum,
 }
 
@@ -28,7 +27,7 @@ impl Exposure {
         }
     }
 
-    /// The same where something is known of its logarithm, if it is.
+    /// The same with this prior on its logarithm, if the exposure is entirely unknown.
     #[must_use]
     pub fn or_expected(self, known: Option<Normal>) -> Self {
         match (self, known) {
@@ -37,8 +36,7 @@ impl Exposure {
         }
     }
 
-    /// The same of a photograph: of an exposure that nobody states something is known, as
-    /// [people expose](Priors::exposure).
+    /// The same for a photograph: an unknown exposure gets the prior of [usual exposures](Priors::exposure).
     #[must_use]
     pub fn of_photograph(self) -> Self {
         match self {

@@ -1,4 +1,4 @@
-//! The facets as a model of standard normal numbers: those behind a spectrum, then those behind the scene's
+//! The facets as a model of standard normal numbers, first those of the spectrum, then those of the scene's
 //! unknowns.
 
 use std::ops::AddAssign;
@@ -12,16 +12,16 @@ use super::gaussian::{Gaussian, logistic, mean_slope};
 use super::prior::Prior;
 use crate::solve::posterior::{Linearised, Model, information};
 
-/// Reflectance below which spectra differ by half of what their logit does, or less: the surface of a dark
-/// sheet sends back some light of all wavelengths, whatever is beneath. With any value from 0.003 to 0.01 the
-/// shares that error bars hold differ less from set to set.
+/// Reflectance at which the spread of spectra is half of what their logits imply: the surface of a dark sheet
+/// reflects some light of all wavelengths, whatever is beneath. Between 0.003 and 0.01 the value matters less
+/// to the coverage of error bars than the choice of test set.
 const SURFACE: f64 = 0.006;
-/// Channels, those of every light counted, that tell classes apart.
+/// Number of channels, counted over all lights, that distinguish classes.
 const TELLING_CHANNELS: usize = 3;
-/// A maximum counts as found within this many standard deviations of it.
+/// A mode counts as found within this many standard deviations.
 const TOLERANCE: f64 = 1e-3;
 
-/// Derivatives by logits and unknowns as derivatives by whitened logits and unknowns.
+/// Converts derivatives by logits and unknowns to derivatives by whitened logits and unknowns.
 fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
     let (bands, coordinates) = gaussian.basis().shape();
     let unknowns = jacobian.ncols() - bands;
@@ -44,7 +44,7 @@ struct ByLogit {
     second: Second,
 }
 
-/// What second derivatives by logit are made of.
+/// Ingredients of second derivatives by logit.
 pub struct Second {
     pub reflectance: Vec<f64>,
     pub exposure: FittedExposure,
@@ -52,7 +52,7 @@ pub struct Second {
 }
 
 impl Facets<'_> {
-    /// Where to set out from a reflectance, the scene being as probable as can be.
+    /// Starting point at a reflectance, with the scene at its prior mode.
     pub fn set_out_from(&self, reflectance: &[f64]) -> DVector<f64> {
         self.gaussian.nearest(reflectance).resize_vertically(self.unknowns(), 0.0)
     }
@@ -73,7 +73,7 @@ impl Facets<'_> {
         (logit, unknowns)
     }
 
-    /// What the sheet sends out itself; none where that is not asked.
+    /// The emission of the sheet; `None` if it is not considered.
     fn sent(&self, reflectance: &[f64], unknowns: &DVector<f64>) -> Option<Sent> {
         let emission = self.data.emission()?;
         let mut sent = emission.at(&unknowns.as_slice()[self.data.scene().unknowns().len()..]);
@@ -85,7 +85,7 @@ impl Facets<'_> {
         Some(sent)
     }
 
-    /// How logits fall towards what excites the sheet, and the place of that among the unknowns.
+    /// The fall of logits towards the exciting wavelengths, and its index among the unknowns.
     fn fall(&self, unknowns: &DVector<f64>) -> Option<(usize, Fall<'_>)> {
         let scene = self.data.scene().unknowns().len();
         let fall = self.data.emission()?.fall(&unknowns.as_slice()[scene..])?;
@@ -122,8 +122,8 @@ impl SpectrumModel for Facets<'_> {
         self.linearised(w).jacobian.columns(0, bands).into_owned()
     }
 
-    /// Reflectances, unknowns of the scene in their own units, exposure; where it is asked what the sheet
-    /// sends out, that as a fraction of white.
+    /// Reflectances, unknowns of the scene in their own units, exposure and, if emission is considered, the
+    /// emission as a fraction of white.
     fn values(&self, w: &DVector<f64>) -> Vec<f64> {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
@@ -144,7 +144,7 @@ impl SpectrumModel for Facets<'_> {
         let sent = self.sent(&reflectance, &unknowns);
         let place_of_exposure = bands + scene;
         let point = place_of_exposure + 1 + sent.as_ref().map_or(0, |sent| sent.fraction.len());
-        // Derivatives of the values by what is whitened: value by number.
+        // Derivatives of the values by the whitened numbers: value by number.
         let mut slopes = DMatrix::zeros(point, at.jacobian.ncols());
         slopes.view_mut((0, 0), (bands, coordinates)).copy_from(self.gaussian.basis());
         for (n, (expected, w)) in self.data.scene().unknowns().iter().zip(&unknowns).enumerate() {
@@ -165,7 +165,7 @@ impl SpectrumModel for Facets<'_> {
             }
         }
         slopes.row_mut(place_of_exposure).copy_from(&whitened(&of_exposure, self.gaussian).row(0));
-        // The covariance is S(I + JᵀJ)⁻¹Sᵀ, S these derivatives.
+        // The covariance is S(I + JᵀJ)⁻¹Sᵀ, where S are these derivatives.
         let spread = information(&at.jacobian)?.l_dirty().solve_lower_triangular(&slopes.transpose())?;
         let rows = spread.nrows();
         let mut spread = spread.insert_row(rows, 0.0);
@@ -188,7 +188,7 @@ impl SpectrumModel for Facets<'_> {
     }
 }
 
-/// All facets of a sample have one scene, and its sheet sends out light or does not: there is but one
+/// All facets of a sample share one scene, and the emission of the sheet is fixed: there is only one
 /// hypothesis.
 impl Family for FacetData<'_> {
     type Hypothesis = ();
@@ -246,7 +246,7 @@ impl Model for Facets<'_> {
             self.data.curvature(&at.by_reflectance, multipliers);
         let basis = self.gaussian.basis();
         let (mut weighted, mut by_logit) = (basis.clone(), DVector::zeros(basis.nrows()));
-        // By the chain rule, with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r); wavebands do not mix.
+        // Chain rule with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r); wavebands do not mix.
         for (band, r) in at.reflectance.iter().enumerate() {
             let change = r * (1.0 - r);
             by_logit[band] = change * (change * reflectance[band] + (1.0 - 2.0 * r) * slopes[band]);
@@ -257,7 +257,7 @@ impl Model for Facets<'_> {
         let mut all = (basis.transpose() * &weighted).resize(coordinates + count, coordinates + count, 0.0);
         let mut unknowns = unknowns;
         if let Some((place, Fall { sd, falling, .. })) = self.fall(&DVector::zeros(count)) {
-            // the fall moves logits as a coordinate of the spectrum does
+            // the fall moves logits like a coordinate of the spectrum
             let by_fall = sd * mixed.tr_mul(falling);
             unknowns.row_mut(place).add_assign(&by_fall.transpose());
             unknowns.column_mut(place).add_assign(&by_fall);

@@ -1,34 +1,33 @@
-//! What a sheet sends out itself, as an estimate has it.
+//! The estimated emission of a sheet.
 
 use super::doubt::Doubt;
 use super::emission::Origin;
 
-/// Light through a sheet is worth a word from this part of white on.
+/// Least amount of light through a sheet worth mentioning, as a fraction of white.
 const NOTEWORTHY: f64 = 0.01;
 
-/// What a sheet sends out itself.
+/// The emission of a sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fluorescence {
-    /// How probable it is that it sends out anything.
+    /// Probability that it emits anything.
     pub probability: f64,
-    /// What most probably excites it.
+    /// The most probable cause.
     pub origin: Origin,
-    /// Where most is sent out, nm.
+    /// Wavelength of strongest emission, nm.
     pub peak_nm: f64,
-    /// The fraction of white there under the light of the scene, and its standard deviation.
+    /// Emission there under the light of the scene, as a fraction of white.
     pub size: f64,
     /// Standard deviation of the size.
     pub size_sd: f64,
-    /// Total radiance factor in every waveband, what is reflected and what is sent out under the light of the
-    /// scene.
+    /// Total radiance factor per waveband: reflection plus emission under the light of the scene.
     pub total_radiance_factor: Vec<f64>,
     /// Its standard deviation.
     pub total_radiance_factor_sd: Vec<f64>,
 }
 
 impl Fluorescence {
-    /// What it says against an estimate: light that bounces excites what visible light excites, too, which is
-    /// not estimated.
+    /// The doubt that it casts on an estimate: where visible light excites the sheet, bounced light does so,
+    /// too, which is not modelled.
     #[must_use]
     pub fn doubt(&self) -> Option<Doubt> {
         let remedy = "measure it with a bispectral instrument";
@@ -38,7 +37,7 @@ impl Fluorescence {
         (self.origin == Origin::Visible).then(|| Doubt::new(because(), remedy))
     }
 
-    /// What a brightener does, or light from behind, in words.
+    /// A sentence about a brightener, or light from behind.
     #[must_use]
     pub fn words(&self) -> Option<String> {
         let Self { probability, size, size_sd, .. } = self;
@@ -57,7 +56,7 @@ impl Fluorescence {
         }
     }
 
-    /// Nobody sees a peak closer than that.
+    /// The peak is not known more precisely than this.
     fn rounded_peak_nm(&self) -> f64 {
         10.0 * (self.peak_nm / 10.0).round()
     }

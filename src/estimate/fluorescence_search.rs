@@ -1,5 +1,5 @@
-//! Whether a sheet fluoresces: which bands it may have is foreseen by a linear model, so that sheets that
-//! facets say nothing of take no searches.
+//! Tests whether a sheet fluoresces. A linear model predicts which bands are possible, so that no searches
+//! are made for sheets without any sign of them.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,21 +12,19 @@ use super::prior::Prior;
 use super::search::{Search, Sorted};
 use crate::solve::forecast::ScoreTest;
 
-/// A band is searched if so much of the evidence may be its own, as a logarithm, at so many times its usual
-/// size at least: less changes nothing.
+/// A band is searched if the linear model predicts at least this gain in log evidence, including prior
+/// probabilities, at no less than this multiple of its usual size: less changes nothing.
 const LN_EVIDENCE_LEAST: f64 = -1.5;
 const LEAST_SIZE: f64 = 0.25;
-/// Bands so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of
-/// the question.
+/// Bands whose log evidence under all spectra is this far below the best are dropped.
 const LN_EVIDENCE_HOPELESS: f64 = -12.0;
-/// Where facets are so many standard deviations further from a sheet that sends out nothing than chance has
-/// it, the model linear about that says nothing of others.
+/// Distance of the facets from a sheet without emission, in standard deviations beyond chance, above which
+/// the model linearised there does not predict other sheets.
 const SURPRISE: f64 = 5.0;
-/// Probability from which on a sheet is said to fluoresce.
+/// Probability above which a sheet is reported to fluoresce.
 const PROBABLE: f64 = 0.5;
 
-/// Whether a sheet of these logits may have a band, as far as a linear model foresees from how residuals
-/// change with it.
+/// True if a sheet with these logits may have a band, predicted from the change of the residuals with it.
 pub fn is_hopeful(
     test: &ScoreTest,
     change: &DVector<f64>,
@@ -36,11 +34,11 @@ pub fn is_hopeful(
     test.ln_gain_by(LEAST_SIZE, change) + emission.ln_share(logit) > LN_EVIDENCE_LEAST
 }
 
-/// Facets as data of a sheet that fluoresces, and their maximum under all spectra.
+/// Facets as data of a fluorescent sheet, and their mode under all spectra.
 pub type Fluorescing<'a> = (FacetData<'a>, Sorted<(), Second>);
 
-/// The facets with each of the bands that the sheet may have and that explain them, `plain` being their
-/// maximum without; hardly ever is there one.
+/// The facets with each possible band that explains them, given their mode without emission, `plain`; there
+/// is hardly ever one.
 pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prior) -> Vec<Fluorescing<'a>> {
     let [_, bands @ ..] = data.scene().emissions() else { return Vec::new() };
     let of_plain = Search::new(data, prior);
@@ -53,7 +51,7 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
     let mut best = plain.ln_evidence;
     let mut all = Vec::new();
     for (emission, change) in bands.iter().zip(changes) {
-        // an exposure that is free takes up what comes from behind
+        // a free exposure absorbs light from behind
         if emission.origin() == Some(Origin::Behind) && data.fits_exposure() {
             continue;
         }
@@ -63,7 +61,7 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
         let Some(emitting) = data.emitting(emission) else { continue };
         let mut search = Search::new(&emitting, prior);
         let numbers = plain.solution.w.len() + emission.unknowns();
-        // where nothing explains the facets leads no further
+        // a mode that does not explain the facets is no useful start
         let start = (!is_unexplained).then(|| plain.solution.w.clone().resize_vertically(numbers, 0.0));
         if let Some(sorted) = search.sort(((), 0.0), start, best + LN_EVIDENCE_HOPELESS)
             && emitting.rms(&sorted.solution.at.residuals) < EXPLAINED * search.tempering()
@@ -76,15 +74,13 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
     all
 }
 
-/// What a sheet is found to send out.
+/// The emission inferred for a sheet; `None` if it probably has none.
 ///
 /// # Arguments
-/// - `shares`: what excites each thing that may be so, and how probable that is;
-/// - `values`, `spread`: those of a mean of these, reflectances first; `first`: where among them stands what
-///   is sent out as a fraction of white;
-/// - `nothing`: the emission of a sheet that sends out nothing, in the light of the scene.
-///
-/// None if it probably sends out nothing.
+/// - `shares`: the cause of each alternative's emission, and its probability;
+/// - `values`, `spread`: those of the mean of the alternatives, with reflectances first; `first`: index of
+///   the emission, as a fraction of white, among them;
+/// - `nothing`: the emission model of a sheet without emission, in the light of the scene.
 pub fn found(
     shares: impl Iterator<Item = (Option<Origin>, f64)>,
     (values, spread): (&[f64], Option<&DMatrix<f64>>),
@@ -115,7 +111,7 @@ pub fn found(
     let sd = |of: &dyn Fn(&DMatrix<f64>) -> f64| spread.map_or(f64::INFINITY, of);
     let sd_of_total = |band: usize| sd(&|all| (all.column(band) + all.column(first + band)).norm());
     Some(Fluorescence {
-        // shares may add up to a rounding more than 1
+        // probabilities may add up to slightly more than 1 by rounding
         probability: probability.min(1.0),
         origin,
         peak_nm: wavelengths_nm[peak],

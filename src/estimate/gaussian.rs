@@ -1,12 +1,13 @@
 //! A Gaussian of the logit of reflectance, `z = ln(r/(1 − r))`.
 //!
-//! In logit every value is a legal reflectance, and the covariance of a set of paints or dyes spreads evenly.
+//! In logit every value is a valid reflectance, and the covariance of a set of paints or dyes spreads evenly.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Reflectances are taken to lie this far inside (0, 1): the logit of a measured 0 or 1 would be infinite.
+/// Distance from 0 and 1 at which reflectances are clamped, as the logit of a measured 0 or 1 would be
+/// infinite.
 const MARGIN: f64 = 2e-3;
-/// Variance of a waveband's logit that the basis may leave out.
+/// Variance of a waveband's logit that the basis may omit.
 const LEFT_OUT: f64 = 1e-4;
 
 /// Mean and covariance of logits on a wavelength grid.
@@ -18,9 +19,9 @@ pub struct Gaussian {
 }
 
 impl Gaussian {
-    /// A Gaussian of this mean and covariance. The coordinates are the columns of the covariance's Cholesky
-    /// factor, the waveband that the others tell least about first, until none is left with a standard
-    /// deviation above 0.01.
+    /// A Gaussian with this mean and covariance. The coordinates are the columns of the pivoted Cholesky
+    /// factor, starting with the least predictable waveband, until no remaining standard deviation
+    /// exceeds 0.01.
     ///
     /// # Source
     /// Pivoted Cholesky decomposition: Higham, *Accuracy and Stability of Numerical Algorithms* (2002),
@@ -42,8 +43,8 @@ impl Gaussian {
         Self { mean, basis }
     }
 
-    /// About the logits of a reflectance that is off by these `errors` of it, independent of each other: one
-    /// a row, waveband by waveband.
+    /// A Gaussian around the logits of a reflectance that has these independent `errors`: one per row,
+    /// waveband by waveband.
     #[must_use]
     pub fn centred_on(reflectance: &[f64], errors: &DMatrix<f64>) -> Self {
         let mean = DVector::from_iterator(reflectance.len(), reflectance.iter().map(|r| logit(*r)));
@@ -55,13 +56,13 @@ impl Gaussian {
         Self { mean, basis }
     }
 
-    /// The same Gaussian, `scale` times as wide.
+    /// The same Gaussian, wider by a factor of `scale`.
     #[must_use]
     pub fn scaled(&self, scale: f64) -> Self {
         Self { mean: self.mean.clone(), basis: scale * &self.basis }
     }
 
-    /// The same Gaussian without the coordinates after the first `count`, which move spectra least.
+    /// The same Gaussian with only the first `count` coordinates; the others move spectra least.
     #[must_use]
     pub fn leading(&self, count: usize) -> Self {
         let count = count.min(self.basis.ncols());
@@ -74,13 +75,13 @@ impl Gaussian {
         &self.mean
     }
 
-    /// Derivative of the logits by the whitened coordinates: waveband by coordinate.
+    /// Derivatives of the logits by the whitened coordinates: waveband by coordinate.
     #[must_use]
     pub fn basis(&self) -> &DMatrix<f64> {
         &self.basis
     }
 
-    /// Logits at whitened coordinates `w`, each standard normal.
+    /// Logits at the whitened coordinates `w`, each of which is standard normal.
     #[must_use]
     pub fn logit_at(&self, w: &DVector<f64>) -> DVector<f64> {
         let mut logit = self.mean.clone();
@@ -88,7 +89,7 @@ impl Gaussian {
         logit
     }
 
-    /// Whitened coordinates whose logits come nearest to those of `reflectance`, one per waveband.
+    /// Whitened coordinates whose logits are closest to those of `reflectance`, one per waveband.
     #[must_use]
     pub fn nearest(&self, reflectance: &[f64]) -> DVector<f64> {
         let off =
@@ -100,7 +101,7 @@ impl Gaussian {
     }
 }
 
-/// Logit of a reflectance, kept off the ends of its range.
+/// Logit of a reflectance, clamped away from the ends of its range.
 #[must_use]
 pub fn logit(r: f64) -> f64 {
     let r = r.clamp(MARGIN, 1.0 - MARGIN);
@@ -113,12 +114,12 @@ pub fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 
-/// Change of reflectance with its logit, in the mean over one standard deviation `sd` to both sides of `z`.
-/// The slope at `z` itself is nothing near 0 and 1, however little is known of a logit there.
+/// Mean slope of reflectance as a function of its logit, over one standard deviation `sd` on both sides of
+/// `z`. The slope at `z` itself vanishes near 0 and 1, however uncertain a logit is there.
 #[must_use]
 pub fn mean_slope(z: f64, sd: f64) -> f64 {
-    // Below that sd it is the slope at `z`, and digits would cancel. The slope is the same at -z, where they
-    // do not.
+    // Below this sd the result is the slope at `z`, and digits would cancel. The slope is the same at -z,
+    // where they do not.
     let (z, sd) = (-z.abs(), sd.max(1e-6));
     (logistic(z + sd) - logistic(z - sd)) / (2.0 * sd)
 }

@@ -1,8 +1,8 @@
-//! Classes of spectra by their evidence, the model taken to be linear about a point.
+//! The evidence of classes of spectra, from a model linearised about a point.
 //!
-//! What data tell of a spectrum whatever the rest of the scene is are a few numbers of standard deviation 1;
-//! under a class of spectra these are normal, too. So the evidence of all classes at all widths takes no more
-//! than small matrices.
+//! After the rest of the scene is marginalised, data determine a few numbers of the spectrum with standard
+//! deviation 1; under a class of spectra these are normal, too. The evidence of all classes at all widths
+//! therefore takes only small matrices.
 
 use std::rc::Rc;
 
@@ -14,19 +14,20 @@ use super::prior::{Class, Prior, ROUGHNESSES, SCALES};
 use crate::solve::Eigen;
 use crate::solve::posterior::{Linearised, Model};
 
-/// Widths at which every class is weighed; at others, which takes most of the time of it, only those that
-/// come so near to the best class, as the logarithm of a share of its evidence.
+/// Widths at which every class is weighed. Only classes whose log evidence is this close to the best are
+/// weighed at all widths, which takes most of the time.
 const FIRST_WIDTHS: [Width; 2] = [Width { scale: 1, roughness: 0 }, Width { scale: 2, roughness: 1 }];
 const LN_EVIDENCE_NEAR: f64 = -6.0;
-/// Directions of logits that data must tell more of than is known of all spectra to tell classes apart.
+/// Number of directions in logit about which data must say more than the prior of all spectra to distinguish
+/// classes.
 const TELLING_LEAST: usize = 3;
-/// Information on a direction of logits that tells no classes apart, each of which knows a hundred times more
-/// of it.
+/// Information about a direction in logit that is too small to distinguish classes, each of which has a
+/// hundred times more.
 const NEGLIGIBLE: f64 = 1e-3;
-/// Standard deviation of logits in which a Gaussian has a spectrum only nearly.
+/// Standard deviation of logits within which a Gaussian approximates a spectrum.
 const NEARLY: f64 = 0.1;
 
-/// A width that a class may have: places in [`SCALES`] and [`ROUGHNESSES`].
+/// A possible width of a class: indices into [`SCALES`] and [`ROUGHNESSES`].
 #[derive(Clone, Copy)]
 struct Width {
     scale: usize,
@@ -44,73 +45,73 @@ impl Width {
     }
 }
 
-/// The model under a hypothesis, linear about a point.
+/// The model under a hypothesis, linearised about a point.
 pub struct Linear<H> {
     hypothesis: H,
-    /// Logarithm of how often it is true.
+    /// Logarithm of the prior probability.
     ln_share: f64,
-    /// Factor by which the noise was tempered; all that follows is in units of that noise.
+    /// Factor by which the noise was tempered; everything below is in units of that noise.
     tempering: f64,
     logit: DVector<f64>,
     others: DVector<f64>,
     by_logit: DMatrix<f64>,
     by_others: DMatrix<f64>,
-    /// What is left at that spectrum, all others being as expected.
+    /// Residuals at that spectrum, with all other numbers at their prior means.
     residuals: DVector<f64>,
     of_others: Cholesky<f64, Dyn>,
-    /// What the data tell of logits: value by waveband, each of standard deviation 1, and how far the values
-    /// are off there.
+    /// Combinations of logits determined by the data: value by waveband, each with standard deviation 1, and
+    /// the offsets of the values there.
     informed: DMatrix<f64>,
     off: DVector<f64>,
-    /// What no spectrum changes of the logarithm of the determinant, and of the sum of squares.
+    /// Parts of the log determinant, and of the sum of squares, that do not depend on the spectrum.
     ln_determinant: f64,
     left: f64,
 }
 
-/// A class of spectra under a hypothesis, by its evidence.
+/// A class of spectra under a hypothesis, with its evidence.
 pub struct Candidate<H> {
     linear: Rc<Linear<H>>,
-    /// The place of the class in the prior.
+    /// Index of the class in the prior.
     pub class: usize,
-    /// How wide it is likely to be, and a place in [`ROUGHNESSES`].
+    /// Its probable scale, and an index into [`ROUGHNESSES`].
     scale: f64,
     roughness: usize,
-    /// Logarithm of the evidence and of the share, at all widths.
+    /// Logarithm of evidence times probability, over all widths.
     pub ln_evidence: f64,
-    /// Logarithm of the share that it would have if all its spectra were as wide.
+    /// Logarithm of the probability it would have if all its spectra were as wide.
     ln_share: f64,
 }
 
-/// Where to set out for a maximum.
+/// Starting point of a search for a mode.
 pub struct Start<H> {
-    /// What is taken to be so.
+    /// The hypothesis.
     pub hypothesis: H,
-    /// The place of the class of spectra in the prior.
+    /// Index of the class of spectra in the prior.
     pub class: usize,
-    /// Factor by which the noise was tempered where it was found.
+    /// Factor by which the noise was tempered where the point was found.
     pub tempering: f64,
-    /// Logarithm of the evidence and of the share, where it was found.
+    /// Logarithm of evidence times probability where the point was found.
     pub ln_evidence: f64,
-    /// Logarithm of its share of all that may be, as if all spectra of the class were as wide as `gaussian`.
+    /// Logarithm of its prior probability, as if all spectra of the class were as wide as `gaussian`.
     pub ln_share: f64,
-    /// Its spectra, as wide as they are likely to be.
+    /// The spectra of the class, at their probable width.
     pub gaussian: Gaussian,
     pub w: DVector<f64>,
 }
 
-/// The maximum of the linear model under a class.
+/// The mode of the linear model under a class.
 pub struct LinearMode {
     pub w: DVector<f64>,
-    /// Logarithm of the evidence but for the residual there, which the model itself tells.
+    /// Log evidence without the residual there, which the model itself gives.
     pub ln_evidence_of_fit: f64,
 }
 
 impl<H: Copy> Linear<H> {
-    /// About `w`, the noise `tempering` times its size, under a hypothesis that is so often true; none if the
-    /// model is not finite.
+    /// Linearises about `w`, with the noise scaled by `tempering`, under a hypothesis and the logarithm of
+    /// its probability; `None` if the model is not finite.
     ///
     /// # Source
-    /// The others marginalised: Schur complement of their information (docs/model.md).
+    /// The other numbers are marginalised: Schur complement of their information (docs/model.md).
     pub fn laplace<M: SpectrumModel>(
         model: &M,
         (w, at): (&DVector<f64>, &Linearised<M::Second>),
@@ -151,9 +152,9 @@ impl<H: Copy> Linear<H> {
         .filter(|linear| (linear.ln_determinant + linear.left).is_finite())
     }
 
-    /// Leaves out of what the data tell of logits what tells no classes apart. To weigh these takes most of
-    /// the time of a hypothesis, and a third of it then; of one alone that is little, and its digits stay as
-    /// they are.
+    /// Drops the information on logits that distinguishes no classes. Weighing classes takes most of the time
+    /// of a hypothesis, and a third of it after this. For a single hypothesis that saves little, and its
+    /// digits are left as they are.
     ///
     /// # Source
     /// Golub and Van Loan, *Matrix Computations* (2013), section 5.4.2: QR with column pivoting, which is an
@@ -169,7 +170,7 @@ impl<H: Copy> Linear<H> {
         (self.informed, self.off) = (informed.rows(0, count).into_owned(), off.rows(0, count).into_owned());
     }
 
-    /// Whether the data tell so much of a spectrum that classes of less evidence may be left out.
+    /// True if the data say so much about a spectrum that classes of less evidence may be dropped.
     pub fn is_telling(&self, gaussian: &Gaussian) -> bool {
         let spread = &self.informed * gaussian.basis();
         if spread.nrows() < TELLING_LEAST || spread.iter().any(|value| !value.is_finite()) {
@@ -180,18 +181,19 @@ impl<H: Copy> Linear<H> {
     }
 }
 
-/// What data tell of logits whatever the others are.
+/// Information of the data on logits, with the other numbers marginalised.
 struct Informed {
-    /// Value by waveband, each of standard deviation 1.
+    /// Value by waveband, each with standard deviation 1.
     values: DMatrix<f64>,
-    /// How far the values are off.
+    /// Offsets of the values.
     off: DVector<f64>,
-    /// What is left of the sum of squares.
+    /// Remaining sum of squares.
     left: f64,
 }
 
 impl Informed {
-    /// By orthogonal transformations: information would lose half of the digits of precise data.
+    /// Uses orthogonal transformations: forming the information would lose half of the digits of precise
+    /// data.
     ///
     /// # Source
     /// Bierman, *Factorization Methods for Discrete Sequential Estimation* (1977), section IV.2.
@@ -212,7 +214,7 @@ impl Informed {
         }
     }
 
-    /// Through the information on logits, of which few directions count.
+    /// Uses the information on logits, in which few directions count.
     fn of_many_others(
         by_logit: &DMatrix<f64>,
         by_others: &DMatrix<f64>,
@@ -238,20 +240,20 @@ impl Informed {
 
 /// That model under a class.
 struct LinearClass {
-    /// How far off the mean of the class is.
+    /// Offset from the mean of the class.
     off: DVector<f64>,
-    /// Covariance of what is told by the class, without what its spectra do beyond it.
+    /// Covariance of the values under the class, without deviations of spectra beyond it.
     by_class: DMatrix<f64>,
 }
 
 /// A class at several widths.
 struct AtWidths {
-    /// Logarithm of the evidence, the widths being as frequent as they are.
+    /// Log evidence, with the widths weighted by their probabilities.
     ln_evidence: f64,
-    /// Root mean square by evidence: where data do not tell the width of a class, error bars are those of all
-    /// widths.
+    /// Root mean square, weighted by evidence: where data do not determine the width of a class, error bars
+    /// reflect all widths.
     scale: f64,
-    /// Of most evidence, a place in [`ROUGHNESSES`].
+    /// That of most evidence, as an index into [`ROUGHNESSES`].
     roughness: usize,
 }
 
@@ -276,7 +278,7 @@ impl LinearClass {
         Cholesky::new(covariance)
     }
 
-    /// The evidence at a width; none if the numbers are not finite.
+    /// The log evidence at a width; `None` if it is not finite.
     fn ln_evidence(&self, by_beyond: &DMatrix<f64>, scale: f64, roughness: usize) -> Option<f64> {
         let factor = self.covariance(by_beyond, scale, roughness)?;
         let cost = factor.l_dirty().solve_lower_triangular(&self.off)?.norm_squared();
@@ -284,7 +286,7 @@ impl LinearClass {
         ln_evidence.is_finite().then_some(ln_evidence)
     }
 
-    /// None if no number is finite.
+    /// `None` if no width has a finite value.
     fn at_widths(&self, by_beyond: &DMatrix<f64>, widths: impl Iterator<Item = Width>) -> Option<AtWidths> {
         let weighed = |width: Width| {
             let ln_of_width = self.ln_evidence(by_beyond, SCALES[width.scale].0, width.roughness)?;
@@ -302,7 +304,7 @@ impl LinearClass {
     }
 }
 
-/// Classes under all hypotheses by their evidence, most first.
+/// Classes under all hypotheses, in order of decreasing evidence.
 pub fn candidates<F: Family>(
     family: &F,
     linears: Vec<Linear<F::Hypothesis>>,
@@ -348,23 +350,22 @@ pub fn candidates<F: Family>(
 }
 
 impl<H: Copy> Candidate<H> {
-    /// What is taken to be so.
+    /// The hypothesis.
     pub fn hypothesis(&self) -> H {
         self.linear.hypothesis
     }
 
-    /// Logarithm of how often that is so.
+    /// Logarithm of the probability of the hypothesis.
     pub fn ln_share_of_hypothesis(&self) -> f64 {
         self.linear.ln_share
     }
 
-    /// The Gaussian of the class, as wide as it is likely to be.
+    /// The Gaussian of the class, at its probable width.
     pub fn gaussian(&self, prior: &Prior) -> Gaussian {
         prior.classes()[self.class].rough(self.roughness).scaled(self.scale)
     }
 
-    /// Where to look for the maximum: where the linear model has it or, if that is further off, where that
-    /// model was made.
+    /// Starting point for the mode: that of the linear model or, if it is worse, the point of linearisation.
     pub fn start<F: Family<Hypothesis = H>>(&self, family: &F, prior: &Prior) -> Option<Start<H>> {
         let Linear { hypothesis, tempering, .. } = *self.linear;
         let gaussian = self.gaussian(prior);
@@ -377,7 +378,7 @@ impl<H: Copy> Candidate<H> {
         Some(Start { hypothesis, class, tempering, ln_evidence, ln_share, gaussian, w })
     }
 
-    /// Where the linear model was made in the coordinates of a Gaussian, as nearly as that has it.
+    /// The point of linearisation in the coordinates of a Gaussian, as closely as possible.
     fn in_coordinates_of(&self, own: &Gaussian) -> Option<DVector<f64>> {
         let (basis, linear) = (own.basis(), &self.linear);
         let mut information = basis.tr_mul(basis);
@@ -386,7 +387,7 @@ impl<H: Copy> Candidate<H> {
         Some(joined(&spectrum, &linear.others))
     }
 
-    /// The maximum of the linear model under a Gaussian of spectra.
+    /// The mode of the linear model under a Gaussian of spectra.
     pub fn maximum(&self, own: &Gaussian) -> Option<LinearMode> {
         let linear = &self.linear;
         let away = &linear.logit - own.mean();

@@ -1,10 +1,9 @@
-//! The default: the expected spectrum, given the facets and what is known of reflectances.
+//! The default: the posterior mean of the spectrum, given the facets and a prior on reflectances.
 //!
-//! `z = logit r` is Gaussian in each class of spectra before the picture is taken; the facets are Gaussian
-//! about the model. Newton's method finds the maximum in whitened z under each class that the facets may
-//! belong to (`search`). The estimate is the mean of the maxima by their evidence, and the curvature gives
-//! error bars (Laplace's approximation), wider where classes disagree or facets are further from the model
-//! than their noise.
+//! `z = logit r` is a priori Gaussian in each class of spectra; the facets are Gaussian about the model.
+//! Newton's method finds the mode in whitened z under each candidate class (`search`). The estimate is the
+//! mean of the modes, weighted by evidence. The curvature gives error bars (Laplace approximation), which
+//! widen where classes disagree or facets are further from the model than their noise.
 
 use std::iter;
 
@@ -22,19 +21,19 @@ use super::{Estimate, Fitted};
 use crate::error::{Error, Result};
 use crate::solve::posterior::Iteration;
 
-/// A fitted number is one if its standard deviation is below that share of what it was before the picture; an
-/// exposure, of which nothing is known before, if it is below that share of the exposure.
+/// A fitted number is supported by the facets if its standard deviation is below this share of the prior one;
+/// an exposure, which has no prior, if its standard deviation is below this share of its value.
 const SUPPORTED: f64 = 0.8;
 const EXPOSURE_SUPPORTED: f64 = 0.5;
 
-/// Noise so many times less than that at which classes of spectra are distinguished.
+/// Facets are precise if their noise is this many times smaller than that at which classes are distinguished.
 const PRECISE: f64 = 10.0;
 
-/// What happened, by runs.
+/// Iterations by run.
 type Trace = Vec<Vec<Iteration>>;
 
-/// The most probable reflectance and, with it, the scene's unknowns. `start` is a reflectance to set out from
-/// instead of the prior's mean; at a maximum of more evidence than all others it makes no difference.
+/// The most probable reflectance, together with the scene's unknowns. `start` is an initial reflectance in
+/// place of the prior's mean; if one mode has more evidence than all others it makes no difference.
 ///
 /// # Source
 /// Objective: Deeb et al., eq. (36), with the prior in place of its smoothness term.
@@ -45,7 +44,7 @@ pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Resul
     Ok(estimate_in_stated_light(data, prior, start, None)?.0)
 }
 
-/// The same, and the light that is more probable than the stated one, if there is any among `others`.
+/// The same, and any light among `others` that is more probable than the stated one.
 ///
 /// # Errors
 /// As [`estimate`].
@@ -62,22 +61,22 @@ pub fn estimate_in_stated_light(
     let Some((unknown, bound)) = impossible(data, &found.mixture) else {
         return Ok((found.estimate(data, &found.mixture, trace), rival));
     };
-    // The maximum lies on the bound; how far off it may be is measured from both of its sides.
+    // The mode lies on the bound; its error bars are those of the unconstrained mode, to both sides.
     let known = data.with_known(unknown, bound);
     let on_bound = Sortings::of(&known, prior, start).and_then(|sorted| sorted.most_probable(&known, prior));
     let (on_bound, more) = on_bound.ok_or_else(not_finite)?;
     Ok((on_bound.estimate(data, &found.mixture, [trace, more].concat()), rival))
 }
 
-/// Facets under all spectra as one: as those of a sheet that sends out nothing, then with whatever it may
-/// send out.
+/// The facets under all spectra as one Gaussian: for a sheet without emission, then with each possible
+/// emission.
 struct Sortings<'a> {
     plain: Sorted<(), Second>,
     fluorescing: Vec<Fluorescing<'a>>,
     trace: Trace,
 }
 
-/// The mean of all maxima, and what it is a mean over.
+/// The mean of all modes, and the alternatives that it covers.
 struct Searched<'a> {
     mixture: Mixture<usize, Second>,
     alternatives: Alternatives<'a>,
@@ -89,28 +88,28 @@ impl<'a> Sortings<'a> {
         let mut search = Search::new(data, prior);
         let start = start.map(|start| all.set_out_from(start));
         let plain = search.sort(((), 0.0), start, f64::NEG_INFINITY)?;
-        // of so little noise a sheet either explains the facets or does not: nothing is asked beside one that
-        // does
+        // precise facets are either explained by a sheet without emission or not: emission is considered only
+        // in the latter case
         let is_asked = search.tempering() <= PRECISE;
         let fluorescing =
             if is_asked { fluorescence_search::may_be(data, &plain, prior) } else { Vec::new() };
         Some(Self { plain, fluorescing, trace: search.trace })
     }
 
-    /// The mean of all modes, unconstrained by the ranges of the unknowns, and what happened.
+    /// The mean of all modes, unconstrained by the ranges of the unknowns, and the trace.
     fn most_probable(self, data: &FacetData<'a>, prior: &Prior) -> Option<(Searched<'a>, Trace)> {
         let Self { plain, fluorescing, trace } = self;
         let asked = !fluorescing.is_empty();
         let (found, more) = Searched::among(with_plain(data, plain, fluorescing)?, prior)?;
         let trace = [trace, more].concat();
         let (rms, tempering) = (found.mixture.best.rms, Search::new(data, prior).tempering());
-        // precise facets that are as far off as a noise at which more is asked may be those of a sheet that
-        // fluoresces
+        // precise facets whose residuals reach a noise at which emission is considered may belong to a
+        // fluorescent sheet
         let is_open = tempering > PRECISE && rms > tempering;
         if rms < EXPLAINED || !(asked || is_open) {
             return Some((found, trace));
         }
-        // evidence of sheets that do not explain the facets says nothing
+        // the evidence of sheets that do not explain the facets is meaningless
         let plain = Search::new(data, prior).sort(((), 0.0), None, f64::NEG_INFINITY)?;
         let fluorescing = if asked { Vec::new() } else { fluorescence_search::may_be(data, &plain, prior) };
         let (other, more) = Searched::among(with_plain(data, plain, fluorescing)?, prior)?;
@@ -119,7 +118,7 @@ impl<'a> Sortings<'a> {
     }
 }
 
-/// The facets of a sheet that sends out nothing, then those of one that fluoresces.
+/// The facets of a sheet without emission, then those of fluorescent ones.
 fn with_plain<'a>(
     data: &FacetData<'a>,
     plain: Sorted<(), Second>,
@@ -143,7 +142,7 @@ impl<'a> Searched<'a> {
         Some((Self { mixture, alternatives }, trace))
     }
 
-    /// As an estimate, as far off as another mixture says.
+    /// Converts to an estimate, with the errors of another mixture, `off`.
     fn estimate(&self, data: &FacetData, off: &Mixture<usize, Second>, trace: Trace) -> Estimate {
         let emission = |alternative: usize| self.alternatives.0[alternative].emission();
         let origin = |alternative| emission(alternative)?.origin();
@@ -157,7 +156,7 @@ impl<'a> Searched<'a> {
     }
 }
 
-/// An unknown of the scene beyond its range, and the end of that.
+/// An unknown of the scene outside its range, and the bound that it exceeds.
 fn impossible(data: &FacetData, found: &Mixture<usize, Second>) -> Option<(usize, f64)> {
     let scene = data.scene();
     let values = &found.values[scene.facets().bands()..];
@@ -165,7 +164,7 @@ fn impossible(data: &FacetData, found: &Mixture<usize, Second>) -> Option<(usize
     scene.unknowns().iter().enumerate().find_map(beyond)
 }
 
-/// What was `found`, as far off as another mixture says.
+/// Converts `found` to an estimate, with the errors of another mixture, `off`.
 pub(super) fn into_estimate<H>(
     data: &FacetData,
     found: &Mixture<H, Second>,
@@ -195,7 +194,7 @@ pub(super) fn into_estimate<H>(
     });
     Estimate {
         albedo: None,
-        // shares of a mean may add up to a rounding more than 1
+        // weights of a mean may add up to slightly more than 1 by rounding
         reflectance: found.values[..bands].iter().map(|r| r.min(1.0)).collect(),
         fitted: of_exposure.into_iter().chain(of_unknowns).collect(),
         findings: Vec::new(),

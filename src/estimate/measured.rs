@@ -1,12 +1,12 @@
-//! Facets that were measured: which of them can be used.
+//! Measured facets, and which of them can be used.
 
 use crate::error::{Error, Result};
 use crate::forward::{FacetModel, FacetValues};
 
-/// A picture with less light in all its facets is dark: squares of such numbers are zero.
+/// A picture with no more light than this in all facets is dark: squares of such numbers underflow.
 const DARKEST: f64 = 1e-100;
 
-/// Facet RGB, and how far each may be off.
+/// Facet RGB with standard deviations.
 pub struct Measured<'a> {
     /// Values.
     pub rgb: &'a FacetValues,
@@ -14,11 +14,11 @@ pub struct Measured<'a> {
     pub sd: &'a FacetValues,
 }
 
-/// Whether there are values of as many facets as the scene has, in as many channels where a facet was
-/// measured.
+/// Checks that there are values for as many facets as the scene has, with its number of channels if any facet
+/// was measured.
 ///
 /// # Errors
-/// [`Error::Field`] under that name if not.
+/// [`Error::Field`] with this `name` if not.
 pub fn check_shape(name: &str, values: &FacetValues, [facets, channels]: [usize; 2]) -> Result<()> {
     if values.len() != facets {
         return Err(Error::field(name, format!("{} facets, but the scene has {facets}", values.len())));
@@ -32,7 +32,7 @@ pub fn check_shape(name: &str, values: &FacetValues, [facets, channels]: [usize;
     Ok(())
 }
 
-/// Facets with a value in every channel; checks the shapes on the way.
+/// Facets with a value in every channel, after checking the shapes.
 pub fn usable_facets(model: &FacetModel, measured: &Measured) -> Result<Vec<usize>> {
     let (facets, channels) = (model.sources()[0].facets.nrows(), model.sources()[0].camera.channels());
     check_shape("facet_rgb", measured.rgb, [facets, channels])?;

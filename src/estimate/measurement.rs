@@ -1,8 +1,8 @@
-//! The estimate of a sheet under a prior, as `vestimate` makes it: which method its facets ask for, and how
-//! far what comes of it can be assumed.
+//! The estimate of a sheet under a prior, as made by `vestimate`: the method that suits its facets, and a
+//! verdict on the result.
 //!
-//! Computed facets are those of an ideal fold. A photograph is taken for one of a real sheet, unless somebody
-//! said what is to be fitted, or the scene is one in which real sheets are not modelled.
+//! Computed facets are those of an ideal fold. A photograph is assumed to show a real sheet, unless the user
+//! stated what to fit, or real sheets are not modelled in the scene.
 
 use std::slice;
 
@@ -25,75 +25,74 @@ use crate::error::{Error, Result};
 use crate::geometry::FacetGrid;
 use crate::image::Making;
 
-/// Least change of facets that counts, in standard deviations.
+/// Least relevant change of the facets, in standard deviations.
 pub const CUTOFF: f64 = 1e-2;
 
-/// How much more probable facets must be as those of several sheets than as those of one, as a logarithm, for
-/// one to be refused: ten thousand times. Who joins photographs seldom errs, and lights that are off from
-/// what was stated make one sheet look like two.
+/// Log Bayes factor of several sheets against one above which joined photographs are refused: ten thousand to
+/// one. Users seldom join the wrong photographs, and errors in the stated light make one sheet look like two.
 const LN_SEVERAL: f64 = 9.2;
 
-/// A scene, and what is known of the sheets in it.
+/// A scene, and prior knowledge of the sheets in it.
 #[derive(Clone, Copy)]
 pub struct Inference<'a> {
-    /// The scene as it was stated, with what is to be fitted in it.
+    /// The scene as stated, with the parameters to fit.
     pub model: &'a SceneModel,
     /// Its wavelengths, nm.
     pub wavelengths_nm: &'a [f64],
-    /// What is known of reflectances beforehand.
+    /// The prior on reflectances.
     pub prior: &'a Prior,
-    /// The reflectance to set out from, if one is given: one number per wavelength.
+    /// The initial reflectance, if one is given: one number per wavelength.
     pub start: Option<&'a [f64]>,
-    /// Whether what is fitted of a photograph is up to it.
+    /// True if a photograph decides for itself what is fitted.
     pub is_auto: bool,
-    /// Light and camera as they were stated.
+    /// The stated light and camera.
     pub stated: &'a Stated,
-    /// What the light may be; none if it is known.
+    /// Candidates for an unknown light; empty if it is known.
     pub lights: &'a [Candidate],
-    /// What else the light that was stated may be; none if nobody stated one, or several.
+    /// Alternatives to the stated light; `None` if none was stated, or several.
     pub other_lights: Option<&'a Others>,
-    /// What a fold of a known sheet shows of light and exposure, if there is one.
+    /// Light and exposure inferred from a fold of a known sheet, if there is one.
     pub shown: Option<&'a Shown>,
-    /// The facets of a panel, if the surface is a fold.
+    /// The facet grid of a panel, if the surface is a fold.
     pub panel: Option<FacetGrid>,
 }
 
-/// A photograph, beside the values of its facets.
+/// A photograph, apart from the values of its facets.
 #[derive(Clone, Debug)]
 pub struct Photographed {
-    /// How it was made.
+    /// How the picture was made.
     pub making: Making,
-    /// Whether a chart or a card in it calibrated its numbers.
+    /// True if its values were calibrated by a chart or a card.
     pub by_chart: bool,
-    /// Shadows on its panels, facets in which are not measured.
+    /// Shadows on its panels; facets in them are not measured.
     pub shadows: Vec<Shadow>,
-    /// What its facets are made of, or why real sheets are not modelled there; none if it is taken for one of
-    /// an ideal fold.
+    /// The ingredients of its facets, or why real sheets are not modelled there; `None` if it is assumed to
+    /// show an ideal fold.
     pub parts: Option<std::result::Result<Parts, Unmodelled>>,
 }
 
-/// The facets of a sheet, as they were measured or computed.
+/// The facets of a sheet, measured or computed.
 #[derive(Clone, Copy)]
 pub struct Facets<'a> {
-    /// Values, and how far each may be off.
+    /// Values and standard deviations.
     pub measured: &'a Measured<'a>,
-    /// How the exposure enters.
+    /// The role of the exposure.
     pub exposure: Exposure,
-    /// The photograph; none of facets that were computed.
+    /// The photograph; `None` for computed facets.
     pub photograph: Option<&'a Photographed>,
 }
 
-/// A spectrum, and what is thought of it.
+/// A spectrum with a verdict on it.
 #[derive(Clone, Debug)]
 pub struct Measurement {
     /// Wavelengths of the spectrum, nm.
     pub wavelengths_nm: Vec<f64>,
-    /// The spectrum, with what was found along with it.
+    /// The spectrum, with everything estimated along with it.
     pub estimate: Estimate,
-    /// How far it can be trusted.
+    /// The verdict.
     pub verdict: Verdict,
-    /// Why a photograph that an ideal fold does not explain was taken for one all the same: its error bars
-    /// lack what that changes.
+    /// Why a photograph that an ideal fold does not explain was still treated as one: its error bars lack the
+    /// effects of a real sheet.
     pub unmodelled: Option<Unmodelled>,
 }
 
@@ -114,14 +113,14 @@ impl<'a> Inference<'a> {
             exposure.or_expected(self.shown.and_then(|shown| shown.exposure))
         };
         let data = FacetData::new(self.model, measured, exposure, CUTOFF)?;
-        // what a photograph has beyond an ideal fold's facets looks like fluorescence
+        // other effects in a photograph look like fluorescence
         Ok(if is_photograph { data.without_fluorescence() } else { data })
     }
 
-    /// The spectrum of a sheet, by the method that its facets ask for, and how far it can be trusted.
+    /// The spectrum of a sheet, by the method that suits its facets, and a verdict.
     ///
     /// # Arguments
-    /// - `data`: the same facets, as [`Inference::data`] has them.
+    /// - `data`: the same facets, as returned by [`Inference::data`].
     ///
     /// # Errors
     /// [`Error::Numeric`] if the facets are not finite.
@@ -175,7 +174,7 @@ impl<'a> Inference<'a> {
         Ok(self.judged(facets, estimate, doubts))
     }
 
-    /// The spectrum of a sheet from facets that were computed.
+    /// The spectrum of a sheet from computed facets.
     fn of_computed(&self, facets: &Facets, data: &FacetData) -> Result<Measurement> {
         let (estimate, rival) = match self.lights {
             [] => map::estimate_in_stated_light(data, self.prior, self.start, self.other_lights)?,
@@ -186,33 +185,33 @@ impl<'a> Inference<'a> {
         Ok(self.judged(facets, estimate, doubts))
     }
 
-    /// A photograph's share of an estimate from several of the sheet, as [`of_one_sheet`] makes it, and how
-    /// far it can be trusted.
+    /// One photograph's part of an estimate from several of the sheet, as made by [`of_one_sheet`], and a
+    /// verdict.
     #[must_use]
     pub fn share(&self, facets: &Facets, estimate: Estimate) -> Measurement {
         let doubts = facets.photograph.map(|photograph| self.doubts_of_taking(photograph));
         self.judged(facets, estimate, doubts.unwrap_or_default())
     }
 
-    /// What speaks against an estimate from how the photograph was taken; of other surfaces than a fold
-    /// nothing is asked.
+    /// Doubts that arise from how the photograph was taken; for surfaces other than a fold only those of
+    /// shadows.
     fn doubts_of_taking(&self, photograph: &Photographed) -> Vec<Doubt> {
         let of_shadows = photograph.shadows.iter().map(Shadow::doubt);
         let of_taking = self.panel.map(|_| doubts_of_taking(self.stated, &photograph.making));
         of_shadows.chain(of_taking.into_iter().flatten()).collect()
     }
 
-    /// What a known fold says against the light that was stated.
+    /// The doubt that a known fold casts on the stated light.
     fn doubt_of_known(&self) -> Option<Doubt> {
         self.shown?.doubt(self.stated.lights.first().map(String::as_str))
     }
 
-    /// What another light that is more probable says against the one that was stated.
+    /// The doubt that a more probable light casts on the stated one.
     fn doubt_of_light(&self, rival: Option<RivalLight>) -> Option<Doubt> {
         Some(rival?.doubt(self.stated.lights.first()?))
     }
 
-    /// An estimate with the verdict on it, `doubts` being known already.
+    /// An estimate with the verdict on it; `doubts` are those already known.
     fn judged(&self, facets: &Facets, mut estimate: Estimate, mut doubts: Vec<Doubt>) -> Measurement {
         if let Some(photograph) = facets.photograph {
             doubts.extend(self.doubts_of_facets(facets, photograph, &estimate));
@@ -227,7 +226,7 @@ impl<'a> Inference<'a> {
         Measurement { wavelengths_nm: self.wavelengths_nm.to_vec(), estimate, verdict, unmodelled: None }
     }
 
-    /// What the facets of a photograph show to speak against its estimate.
+    /// Doubts that the facets of a photograph cast on its estimate.
     fn doubts_of_facets(
         &self,
         facets: &Facets,
@@ -261,10 +260,10 @@ impl<'a> Inference<'a> {
 /// The estimate from photographs of one sheet.
 ///
 /// # Arguments
-/// - `photographs`: what each is made of, at least one; `names`: what each is called, for errors.
+/// - `photographs`: the ingredients of each, at least one; `names`: their names, for errors.
 ///
 /// # Errors
-/// [`Error::Field`] if they are those of several sheets, [`Error::Numeric`] if facets are not finite.
+/// [`Error::Field`] if they show several sheets, [`Error::Numeric`] if facets are not finite.
 pub fn of_one_sheet(photographs: &[Parts], names: &[String], prior: &Prior) -> Result<SheetEstimate> {
     let estimate = |all: &[Parts]| photograph::estimate_usual(all, prior);
     let together = estimate(photographs)?;

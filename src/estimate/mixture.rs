@@ -1,4 +1,4 @@
-//! Maxima and their mean by evidence: what an estimate is made of.
+//! Modes and their mean, weighted by evidence: the ingredients of an estimate.
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 
@@ -8,7 +8,7 @@ use super::prior::Prior;
 use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Linearised, Model, Solution};
 
-/// The maximum under a hypothesis and a class of spectra.
+/// The mode under a hypothesis and a class of spectra.
 pub struct LocalMode<H, S> {
     /// Where the search ended.
     pub start: Start<H>,
@@ -24,29 +24,29 @@ pub struct LocalMode<H, S> {
     pub termination: Termination,
 }
 
-/// A class that was not searched, where the linear model has its maximum.
+/// A class that was not searched, at the mode of the linear model.
 pub struct Unsearched<H> {
     hypothesis: H,
     pub ln_evidence: f64,
     values: Vec<f64>,
 }
 
-/// What is expected, all maxima being weighed by their evidence.
+/// The mean of all modes, weighted by their evidence.
 pub struct Mixture<H, S> {
     /// As [`SpectrumModel::values`], and [`SpectrumModel::spread`].
     pub values: Vec<f64>,
     pub spread: Option<DMatrix<f64>>,
-    /// The maximum of most evidence.
+    /// The mode of most evidence.
     pub best: LocalMode<H, S>,
-    /// Hypotheses by how probable they are, which adds up to 1; one stands there as often as classes of
-    /// spectra count under it.
+    /// Hypotheses with their probabilities, which add up to 1; a hypothesis is listed once for each class of
+    /// spectra that counts under it.
     pub shares: Vec<(H, f64)>,
-    /// Logarithm of the evidence for all.
+    /// Logarithm of the total evidence.
     pub ln_evidence: f64,
 }
 
 impl<H: Copy, S> LocalMode<H, S> {
-    /// Where a search from `start` ended.
+    /// The end of a search from `start`.
     pub fn of<M: SpectrumModel<Second = S>>(model: &M, solution: Solution<S>, start: Start<H>) -> Self {
         let ln_evidence = solution
             .ln_evidence(1.0)
@@ -64,7 +64,8 @@ impl<H: Copy, S> LocalMode<H, S> {
         }
     }
 
-    /// Whether it is the same maximum, reflectances in so many `bands` being as near as that.
+    /// True if it is the same mode: of the same class, with reflectances in `bands` wavebands that differ by
+    /// less than `apart`.
     pub fn is_again(&self, other: &Self, bands: usize, apart: f64) -> bool {
         let off = self.values.iter().zip(&other.values).take(bands).map(|(a, b)| (a - b).powi(2));
         self.start.class == other.start.class && off.sum::<f64>() < apart * apart * bands as f64
@@ -72,8 +73,8 @@ impl<H: Copy, S> LocalMode<H, S> {
 }
 
 impl<H: Copy> Unsearched<H> {
-    /// The evidence is less than at the class's own maximum, by what the linear model is off; none if that is
-    /// not finite.
+    /// The evidence is lower than at the class's own mode, because of the error of the linear model; `None`
+    /// if it is not finite.
     pub fn of<F: Family<Hypothesis = H>>(
         family: &F,
         candidate: &Candidate<H>,
@@ -89,9 +90,9 @@ impl<H: Copy> Unsearched<H> {
 }
 
 impl<H: Copy, S> Mixture<H, S> {
-    /// The mean of the maxima and of what is `unsearched` them by evidence, its errors widened by how far
-    /// they are from it. What was not searched counts for no more than the best that was, and is taken to be
-    /// known as the maxima are in the mean. None if there is no maximum.
+    /// The mean of the modes and of `unsearched` classes, weighted by evidence, with errors widened by their
+    /// distances from it. An unsearched class counts at most as much as the best mode, and is assumed to be
+    /// as uncertain as the modes are on average. `None` without any mode.
     pub fn of(mut modes: Vec<LocalMode<H, S>>, unsearched: &[Unsearched<H>]) -> Option<Self> {
         modes.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
         let most = modes.first()?;

@@ -1,5 +1,5 @@
-//! From facet RGB to the spectrum: by its most probable value among the classes of known spectra ([`map`]),
-//! of photographs together with the unknowns of sheet, light and camera ([`photograph`]). The paper's own
+//! From facet RGB to the spectrum: the posterior mean over classes of known spectra ([`map`]), for
+//! photographs together with the unknowns of sheet, light and camera ([`photograph`]). The paper's own
 //! estimator and its rivals are in [`paper`](crate::paper).
 
 mod alternatives;

@@ -1,4 +1,4 @@
-//! How far each facet may be off: its noise, and what the model leaves out.
+//! Uncertainty of each facet: its noise, and the error of the model.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,36 +6,35 @@ use crate::error::{Error, Result};
 use crate::forward::{FacetModel, FacetValues};
 use crate::solve::Eigen;
 
-/// Noise that computed facets have all the same: what rounding and the scene's tolerance leave, relative to
-/// the brightest.
+/// Noise assigned to computed facets, relative to the brightest: rounding errors and the scene's tolerance.
 const FLOOR: f64 = 1e-6;
 
-/// Directions in which the terms move facets by less than the root of that share of the most are rounding.
+/// Directions in which the terms move facets by less than the root of this share of the largest are rounding
+/// errors.
 const ROUNDING: f64 = 1e-13;
 
-/// What an estimate takes facets to be worth.
+/// The noise that an estimate assumes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
-    /// The part that is the facets' own.
+    /// The noise of the facets themselves.
     pub source: NoiseSource,
     /// Error of the model, relative to a facet's value.
     pub model_error: f64,
 }
 
-/// What tells the noise of facets.
+/// Source of the facets' noise.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoiseSource {
-    /// All have this standard deviation, white being 1.
+    /// The same standard deviation for all, relative to white.
     Stated(f64),
-    /// Each has its own.
+    /// An individual standard deviation for each.
     OfFacets(FacetValues),
-    /// The facets, by what no reflectance explains of them.
+    /// Inferred from the part of the facets that no reflectance explains.
     Unexplained,
 }
 
 impl Noise {
-    /// Error of the model, relative to the facet's value, where none was given: what a real fold does that
-    /// the model does not.
+    /// Default error of the model, relative to a facet's value: effects of a real fold that the model lacks.
     #[must_use]
     pub fn model_error(is_photograph: bool) -> f64 {
         if is_photograph { 3e-4 } else { 0.0 }
@@ -44,7 +43,7 @@ impl Noise {
     /// Standard deviations of facets `rgb`.
     ///
     /// # Errors
-    /// [`Error::Field`] if those of the noise are of another number of facets.
+    /// [`Error::Field`] if the standard deviations belong to another number of facets.
     pub fn deviations(&self, model: &FacetModel, rgb: &FacetValues) -> Result<FacetValues> {
         let of_channels = |noise: &[f64], channel: usize| noise.get(channel).copied().unwrap_or(0.0);
         match &self.source {
@@ -54,7 +53,7 @@ impl Noise {
                     let problem = format!("{} facets, but facet_rgb has {}", sd.len(), rgb.len());
                     return Err(Error::field("facet_sd", problem));
                 }
-                // facets of so few pixels that their noise is not known are no better than the others
+                // facets with too few pixels to determine their noise are as uncertain as the noisiest one
                 let most = match sd.channels() {
                     0 => unexplained(model, rgb),
                     channels => (0..channels).map(|channel| greatest(sd, channel)).collect(),
@@ -77,18 +76,19 @@ fn greatest(values: &FacetValues, channel: usize) -> f64 {
     values.facets().flatten().map(|facet| facet[channel]).fold(0.0, f64::max)
 }
 
-/// Standard deviations of facets `rgb`: their noise as `noise_sd` has it for a facet and channel,
-/// `model_error` relative to the facet's value, and a millionth of the brightest facet, in quadrature.
+/// Standard deviations of facets `rgb`: `noise_sd` of a facet and channel, `model_error` relative to the
+/// facet's value, and a millionth of the brightest facet, in quadrature.
 #[must_use]
 pub fn deviations(rgb: &FacetValues, noise_sd: impl Fn([usize; 2]) -> f64, model_error: f64) -> FacetValues {
     let floor = FLOOR * rgb.greatest();
     rgb.map(|place, value| noise_sd(place).hypot(model_error * value).hypot(floor))
 }
 
-/// Noise of each channel, from the facets alone: the root mean square of what no reflectance explains.
+/// Noise of each channel, inferred from the facets alone: the root mean square of what no reflectance
+/// explains.
 ///
-/// All reflectances move the facets within the span of the model's terms; of hundreds of facets all but a
-/// dozen directions are noise. Zero where the terms can be any facets.
+/// All reflectances move the facets within the span of the model's terms; among hundreds of facets, all but a
+/// dozen directions are noise. Zero if the terms span all facets.
 #[must_use]
 pub fn unexplained(model: &FacetModel, rgb: &FacetValues) -> Vec<f64> {
     let usable: Vec<usize> = (0..rgb.len().min(model.sources()[0].facets.nrows()))
@@ -115,10 +115,10 @@ pub fn unexplained(model: &FacetModel, rgb: &FacetValues) -> Vec<f64> {
     (0..channels).map(noise).collect()
 }
 
-/// Orthonormal vectors that the columns are made of, fewer than them by far: the terms of neighbouring folds
-/// are much alike.
+/// Orthonormal basis of the columns' span, which is much smaller than their number: the terms of neighbouring
+/// folds are very similar.
 fn span(columns: &[DVector<f64>]) -> DMatrix<f64> {
-    // By terms, not by facets: there are ten times as many of these.
+    // Works in the space of terms rather than facets, of which there are ten times as many.
     let (q, r) = DMatrix::from_columns(columns).qr().unpack();
     let Eigen { values, vectors } = Eigen::of_symmetric(&r * r.transpose());
     let least = ROUNDING * values.iter().copied().fold(0.0, f64::max);
@@ -153,7 +153,7 @@ mod tests {
         };
         let sd = sd_of([Some(0.01), None, Some(0.02), Some(0.01), Some(0.01), Some(0.01)]);
         assert!((sd.get(1, 0).unwrap() - 0.02).abs() < 1e-9, "{sd:?}");
-        // where nothing is said of any, what no reflectance explains tells
+        // where no facet has a known noise, it is inferred from what no reflectance explains
         let noise = Noise { source: NoiseSource::Unexplained, model_error: 0.0 };
         assert_eq!(sd_of([None; 6]), noise.deviations(&model, &rgb).unwrap());
     }

@@ -1,16 +1,16 @@
-//! What is known of a number before a picture is looked at: normal on a scale.
+//! Prior knowledge of a number: normal on a scale.
 
 /// Mean and standard deviation of a number on the [`Scale`] of its unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Normal {
     /// Mean.
     pub mean: f64,
-    /// Standard deviation; zero for a number that is known after all.
+    /// Standard deviation; zero for a number that is known.
     pub sd: f64,
 }
 
 impl Normal {
-    /// The same number, of which something else, independent of what is known so far, says this.
+    /// Combines this with independent knowledge of the same number.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         let [own, others] = [self, other].map(|one| one.sd.powi(-2));
@@ -19,12 +19,12 @@ impl Normal {
     }
 }
 
-/// What is known of an unknown of a photograph before that is looked at.
+/// Prior of an unknown of a photograph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expectation {
-    /// The unit in which the value is on its [`Scale`].
+    /// Unit of the value on its [`Scale`].
     pub unit: f64,
-    /// What is known of it there.
+    /// Its prior there.
     pub normal: Normal,
 }
 
@@ -35,22 +35,22 @@ impl From<Normal> for Expectation {
     }
 }
 
-/// A monotone map between the value of an unknown and the number that is normal.
+/// A monotone map between the value of an unknown and a normally distributed number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
     /// The value itself.
     Linear,
-    /// A million over the value: colour temperatures in K differ to the eye as their reciprocals in 1e-6/K
-    /// do.
+    /// A million over the value: the eye sees differences in colour temperature (K) as differences in their
+    /// reciprocals (1e-6/K).
     Reciprocal,
-    /// The logarithm: what is known of the value is a factor.
+    /// The logarithm, for factors.
     Logarithm,
-    /// `ln(1 + eˣ)` is the value: it is never negative, near to nothing below and proportional to x above.
+    /// The value is `ln(1 + eˣ)`: never negative, almost 0 for negative x and proportional to positive x.
     Positive,
 }
 
 impl Scale {
-    /// The value where the normal number is `x`, and its derivative by it.
+    /// The value at the normal number `x`, and its derivative.
     #[must_use]
     pub fn value(self, x: f64) -> (f64, f64) {
         match self {
@@ -64,7 +64,7 @@ impl Scale {
         }
     }
 
-    /// The normal number where the value is `value`.
+    /// The normal number at `value`.
     #[must_use]
     pub fn normal(self, value: f64) -> f64 {
         match self {

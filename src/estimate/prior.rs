@@ -1,4 +1,4 @@
-//! What is known of reflectances before a picture is taken.
+//! The prior on reflectances.
 
 use std::sync::{Arc, OnceLock};
 
@@ -9,12 +9,12 @@ use super::classes::{divide, moments, shrunk};
 use super::gaussian::{Gaussian, logit};
 use crate::error::{Error, Result};
 
-/// Correlation length and standard deviation, in logit, of what spectra do that the set behind a prior does
-/// not, all spectra being one Gaussian; classes are distinguished with it, too.
+/// Correlation length and standard deviation, in logit, of deviations of spectra from the set behind a prior,
+/// if all spectra are one Gaussian; also used to distinguish classes.
 const MATERN_LENGTH_NM: f64 = 60.0;
 const MATERN_SD: f64 = 0.25;
-/// The same under a class: less, but more towards the ends of the visible spectrum, where cameras see little
-/// and materials differ most; it falls by e within the decay.
+/// The same under a class: smaller, but increasing towards the ends of the visible spectrum, where cameras
+/// see little and materials differ most. The increase falls off by a factor of e per decay length.
 const MIDDLE_SD: f64 = 0.16;
 const VIOLET_SD: f64 = 0.2;
 const RED_SD: f64 = 0.1;
@@ -22,14 +22,14 @@ const VIOLET_NM: f64 = 400.0;
 const RED_NM: f64 = 700.0;
 const DECAY_NM: f64 = 20.0;
 
-/// How wide a class may be, as a multiple of what its spectra are, and how often: spectra of a kind are not
-/// all equally unusual, and with a scale for each of them its tails are heavy.
+/// Possible widths of a class, relative to its usual width, with their probabilities: some spectra of a class
+/// are more unusual than others, and a scale for each makes the tails heavy.
 pub const SCALES: [(f64, f64); 4] = [(0.6, 0.4), (1.1, 0.35), (2.0, 0.2), (3.5, 0.05)];
-/// How many times what is usual a spectrum may do beyond its class, and how often: some are smoother than
-/// others, whatever their class.
+/// Possible sizes of deviations beyond a class, relative to the usual size, with their probabilities: some
+/// spectra are smoother than others, whatever their class.
 pub const ROUGHNESSES: [(f64, f64); 2] = [(0.75, 0.65), (1.7, 0.35)];
 
-/// A mixture of Gaussians of the logit of reflectance, one a class of spectra, and the Gaussian of all
+/// A mixture of Gaussians in the logit of reflectance, one per class of spectra, and the Gaussian of all
 /// classes together.
 #[derive(Clone, Debug)]
 pub struct Prior {
@@ -41,12 +41,12 @@ pub struct Prior {
 /// One class of spectra.
 #[derive(Clone, Debug)]
 pub struct Class {
-    /// Logarithm of its share of all spectra.
+    /// Logarithm of its prior probability.
     pub ln_share: f64,
     mean: DVector<f64>,
     own: DMatrix<f64>,
     beyond: Arc<DMatrix<f64>>,
-    /// Made where they are asked for first: most classes never are.
+    /// Computed on first use: most classes are never needed.
     usual: OnceLock<Gaussian>,
     rough: [OnceLock<Gaussian>; ROUGHNESSES.len()],
 }
@@ -63,14 +63,14 @@ impl Class {
         &self.mean
     }
 
-    /// Waveband by factor; its product with its transpose is the covariance of the class, without what its
-    /// spectra do beyond it.
+    /// Waveband by factor: a square root of the covariance of the class, without deviations of spectra beyond
+    /// it.
     #[must_use]
     pub fn own(&self) -> &DMatrix<f64> {
         &self.own
     }
 
-    /// Its spectra, if they do as much beyond the class as is usual.
+    /// Its spectra with deviations of the usual size.
     #[must_use]
     pub fn gaussian(&self) -> &Gaussian {
         self.usual.get_or_init(|| self.as_rough_as(1.0))
@@ -93,7 +93,7 @@ impl Prior {
     /// one of anything smooth.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] for wavelengths beyond 380 to 780 nm.
+    /// [`Error::Spectrum`] for wavelengths outside 380 to 780 nm.
     ///
     /// # Example
     /// ```
@@ -117,16 +117,16 @@ impl Prior {
         })
     }
 
-    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term (60
-    /// nm, 0.16 in logit, more below 420 and above 680 nm) for what the set does not contain. `classes` holds
-    /// the class of every spectrum; without it they are found ([`classes_of`]).
+    /// Mean and covariance of each class of a set of spectra on `wavelengths_nm`, with a Matérn 5/2 term
+    /// (60 nm, 0.16 in logit, more below 420 and above 680 nm) for what the set does not contain. `classes`
+    /// gives the class of every spectrum; without it they are found ([`classes_of`]).
     ///
     /// # Source
     /// Rasmussen and Williams, *Gaussian Processes for Machine Learning* (2006), eq. (4.17).
     ///
     /// # Errors
-    /// [`Error::Numeric`] with fewer than two spectra, or one that is not as long as the grid, or a class for
-    /// none.
+    /// [`Error::Numeric`] for fewer than two spectra, for one whose length differs from the grid's, or if
+    /// `classes` does not have one entry per spectrum.
     pub fn from_spectra(
         wavelengths_nm: &[f64],
         spectra: &[Vec<f64>],
@@ -173,8 +173,7 @@ impl Prior {
         &self.classes
     }
 
-    /// Logarithm of the share of each class, where shares are as that power of those of the spectra that are
-    /// known.
+    /// Logarithms of the class probabilities, tempered by this power of their shares among known spectra.
     #[must_use]
     pub fn ln_shares(&self, power: f64) -> Vec<f64> {
         let powers: Vec<f64> = self.classes.iter().map(|class| power * class.ln_share).collect();
@@ -182,14 +181,14 @@ impl Prior {
         powers.into_iter().map(|ln| ln - ln_all).collect()
     }
 
-    /// Covariance of what spectra usually do beyond their class, waveband by waveband.
+    /// Covariance of the usual deviations of spectra beyond their class, waveband by waveband.
     #[must_use]
     pub fn beyond(&self) -> &DMatrix<f64> {
         &self.beyond
     }
 }
 
-/// Classes into which a set of spectra on `wavelengths_nm` falls, one per spectrum.
+/// Divides a set of spectra on `wavelengths_nm` into classes, one number per spectrum.
 #[must_use]
 pub fn classes_of(wavelengths_nm: &[f64], spectra: &[Vec<f64>]) -> Vec<usize> {
     divide(&logits_of(spectra), &matern(wavelengths_nm))
@@ -206,12 +205,12 @@ fn matern(wavelengths_nm: &[f64]) -> DMatrix<f64> {
     DMatrix::from_fn(bands, bands, |i, j| matern_5_2(wavelengths_nm[i] - wavelengths_nm[j]))
 }
 
-/// A factor of a covariance, as few columns as matter.
+/// A square root of a covariance, with as few columns as matter.
 fn factor(covariance: &DMatrix<f64>) -> DMatrix<f64> {
     Gaussian::new(DVector::zeros(covariance.nrows()), covariance).basis().clone()
 }
 
-/// Covariance of what spectra do beyond their class.
+/// Covariance of the deviations of spectra beyond their class.
 fn beyond_class(wavelengths_nm: &[f64]) -> DMatrix<f64> {
     let sd = |nm: f64| {
         let violet = (-(nm - VIOLET_NM).max(0.0) / DECAY_NM).exp();

@@ -1,9 +1,9 @@
-//! The most probable spectrum under all hypotheses and all classes of spectra: one search for whatever has a
-//! prior.
+//! The most probable spectrum over all hypotheses and all classes of spectra: one search for everything with
+//! a prior.
 //!
-//! Each hypothesis is tried under all spectra as one Gaussian; the model linearised there says which classes
-//! of spectra are likely under it ([`linear`](super::linear)). Those of most evidence are searched to their
-//! own modes, and the estimate is the mean of these by their evidence ([`mixture`](super::mixture)).
+//! Each hypothesis is tried under all spectra as one Gaussian; the model linearised there gives the evidence
+//! of every class of spectra ([`linear`](super::linear)). Those of most evidence are searched to their own
+//! modes, and the estimate is the mean of these, weighted by evidence ([`mixture`](super::mixture)).
 
 use nalgebra::DVector;
 
@@ -18,64 +18,63 @@ use crate::solve::Termination;
 use crate::solve::forecast::{ScoreTest, foreseen_cost};
 use crate::solve::posterior::{Iteration, Limits, Model, Solution, find_mode, first_tempering};
 
-/// A maximum that only sorts counts as found within this many standard deviations of it, and one at which
-/// classes are distinguished within so many times the [tolerance](Family::tolerance).
+/// A mode needed only for sorting counts as found within this many standard deviations, and one at which
+/// classes are distinguished within this many times the [tolerance](Family::tolerance).
 const SORTING_TOLERANCE: f64 = 0.3;
 const TELLING_TOLERANCE: f64 = 10.0;
 const SORTING_LIMIT: usize = 500;
-/// Classes are distinguished at these noises, relative to the brightest datum, or at the true one if that is
-/// larger: at the coarse one all spectra lead to where the model is nearly linear, at the fine one the most
-/// probable class of these does.
+/// Classes are distinguished at these noise levels, relative to the brightest datum, or at the true one if
+/// that is larger. At the coarse level the search under all spectra leads to a point where the model is
+/// nearly linear; at the fine level the search under the most probable class does.
 const SORTING_NOISE: f64 = 1e-3;
 const FINE_NOISE: f64 = 1e-5;
-/// The search that leads there ends so near to its maximum, in standard deviations, or after so many
-/// iterations.
+/// That search ends this close to its mode, in standard deviations, or after this many iterations.
 const FINE_TOLERANCE: f64 = 0.01;
 const FINE_LIMIT: usize = 30;
-/// The least evidence, as the logarithm of its share of the first's, for one that counts without a search,
-/// how many do, and how many of many hypotheses.
+/// Least log evidence relative to the first for a candidate that counts without a search, how many of them
+/// count, and how many among many hypotheses.
 const UNSEARCHED_LN_EVIDENCE_LEAST: f64 = -4.0;
 const UNSEARCHED: usize = 15;
 const UNSEARCHED_OF_MANY: usize = 100;
-/// Hypotheses whose most probable class comes so near to that of the best, likewise, are followed to the fine
-/// noise, and so many of them at most.
+/// Hypotheses whose most probable class has a log evidence this close to the best are followed to the fine
+/// noise, up to this number.
 const FOLLOWED_LN_EVIDENCE_LEAST: f64 = -8.0;
 const FOLLOWED: usize = 8;
-/// Most iterations of all searches: more than all but a few spectra take and, where data have noise, which
-/// may be of another scene than was told, so many that no search that explains them comes near to that.
+/// Maximum number of iterations of all searches: more than all but a few spectra take and, for noisy data,
+/// which may belong to another scene than stated, far more than any search that explains them takes.
 const LIMIT: usize = 90;
 const NOISY_LIMIT: usize = 600;
-/// Of precise data, maxima so many standard deviations from what chance has may be false, and those that a
-/// search took more than [`LONG`] iterations to: one from another start counts by its evidence if it explains
-/// the data.
+/// For precise data a mode may be false if its distance exceeds chance by this many standard deviations, or
+/// if its search took more than [`LONG`] iterations. A mode from another start then counts by its evidence if
+/// it explains the data.
 const SURPRISE: f64 = 0.0;
 const LONG: usize = 10;
-/// Most iterations of each of these searches, where data are precise.
+/// Maximum number of iterations of each such search, if the data distinguish classes.
 const ANOTHER_LIMIT: usize = 20;
-/// The best search is carried on for so many iterations where none has come to the data.
+/// Additional iterations of the best search if none has explained the data.
 const CARRIED_ON: usize = 40;
-/// A maximum explains the data if it leaves them within so many times their noise; further off the scene is
-/// not the one that was photographed, and evidence says nothing.
+/// A mode explains the data if its reduced chi is below this; beyond, the scene is not the one photographed,
+/// and the evidence is meaningless.
 const REDUCED_CHI_MOST: f64 = 1.1;
 
 /// A hypothesis under all spectra as one Gaussian.
 pub struct Sorted<H, S> {
     pub hypothesis: H,
-    /// Logarithm of how often it is true.
+    /// Logarithm of its prior probability.
     pub ln_share: f64,
-    /// Logarithm of its evidence, the noise as it was tempered.
+    /// Logarithm of its evidence at the tempered noise.
     pub ln_evidence: f64,
     pub solution: Solution<S>,
 }
 
 impl<H, S> Sorted<H, S> {
-    /// The same as another hypothesis.
+    /// The same, relabelled as another hypothesis.
     pub fn for_hypothesis<T>(self, hypothesis: T) -> Sorted<T, S> {
         let Self { ln_share, ln_evidence, solution, .. } = self;
         Sorted { hypothesis, ln_share, ln_evidence, solution }
     }
 
-    /// Logarithm of its evidence and of how often it is true.
+    /// Logarithm of evidence times probability.
     pub fn ln_weight(&self) -> f64 {
         self.ln_share + self.ln_evidence
     }
@@ -88,9 +87,9 @@ pub struct Search<'a, F: Family> {
     /// Factors by which the noise is tempered while hypotheses and classes are distinguished.
     coarse: f64,
     fine: f64,
-    /// What happened, by runs.
+    /// Iterations by run.
     pub trace: Vec<Vec<Iteration>>,
-    /// Candidates that the evidence is against.
+    /// Number of candidates ruled out by the evidence.
     pub skipped: usize,
 }
 
@@ -102,8 +101,9 @@ impl<'a, F: Family> Search<'a, F> {
         Self { family, prior, coarse, fine, trace: Vec::new(), skipped: 0 }
     }
 
-    /// A hypothesis that is so often true, from `start` on, or from the mean; none if there is no maximum.
-    /// The search is given up where the logarithm of evidence and share cannot be as high as `ln_least`.
+    /// Searches a hypothesis, given with the logarithm of its probability, starting from `start` or from the
+    /// mean; `None` if there is no mode. The search is abandoned when the logarithm of evidence times
+    /// probability cannot reach `ln_least`.
     pub fn sort(
         &mut self,
         (hypothesis, ln_share): (F::Hypothesis, f64),
@@ -126,24 +126,24 @@ impl<'a, F: Family> Search<'a, F> {
         self.prior.broad()
     }
 
-    /// How many times its size the noise is while hypotheses are sorted.
+    /// Factor by which the noise is tempered while hypotheses are sorted.
     pub fn tempering(&self) -> f64 {
         self.coarse
     }
 
-    /// How far data are from a hypothesis at that noise, as [`Solution::surprise`].
+    /// Distance of the data from a hypothesis at that noise, as [`Solution::surprise`].
     pub fn surprise(&self, one: &Sorted<F::Hypothesis, F::Second>) -> f64 {
         one.solution.surprise(self.coarse)
     }
 
-    /// How much more probable data become where the model may move in one more way about the maximum of a
-    /// hypothesis.
+    /// Predicts how much more probable data become if the model has one more degree of freedom at the mode of
+    /// a hypothesis.
     pub fn score_test<'s>(&self, one: &'s Sorted<F::Hypothesis, F::Second>) -> Option<ScoreTest<'s>> {
         ScoreTest::at(&one.solution, self.coarse)
     }
 
-    /// Logarithm of how many times as probable data may become, by the model of a hypothesis linear about
-    /// `start`, as they are under `one` of another family; the volumes that errors take are not counted.
+    /// Logarithm of how much more probable data may become under a hypothesis, whose model is linearised
+    /// about `start`, than under `one` of another family; volumes of errors are not counted.
     pub fn ln_gain_from(
         &self,
         hypothesis: F::Hypothesis,
@@ -154,7 +154,7 @@ impl<'a, F: Family> Search<'a, F> {
         Some(0.5 * (one.solution.cost(self.coarse) - foreseen_cost(&model, start, self.coarse)?))
     }
 
-    /// The mean of all maxima of evidence under hypotheses that are `sorted`.
+    /// The mean of all modes of most evidence under the `sorted` hypotheses.
     pub fn mixture(
         &mut self,
         sorted: &[Sorted<F::Hypothesis, F::Second>],
@@ -181,7 +181,7 @@ impl<'a, F: Family> Search<'a, F> {
         let mut found = Vec::new();
         for start in starts.by_ref() {
             found.extend(self.maximum(start, limit));
-            // the others set out beside it: more is likely to be found from elsewhere
+            // the others start near it: other starts are more promising
             if are_precise && !found.iter().any(explains) {
                 break;
             }
@@ -221,8 +221,8 @@ impl<'a, F: Family> Search<'a, F> {
             found.extend(self.maximum(all, 0));
         }
         self.trace.extend(found.iter().map(|one| one.trace.clone()));
-        // evidence at a larger noise than the data have is not to be weighed with, nor that of a scene which
-        // does not explain them
+        // evidence at more noise than the data have does not serve for weighing, nor does that of a scene
+        // which does not explain them
         let count = match family.has_many_hypotheses() {
             _ if are_precise => 0,
             true => UNSEARCHED_OF_MANY,
@@ -234,7 +234,7 @@ impl<'a, F: Family> Search<'a, F> {
         Mixture::of(found, &unsearched)
     }
 
-    /// The model linear about the maximum of a hypothesis.
+    /// The model linearised about the mode of a hypothesis.
     fn laplace(&self, one: &Sorted<F::Hypothesis, F::Second>) -> Option<Linear<F::Hypothesis>> {
         let model = self.family.model(one.hypothesis, self.prior.broad())?;
         let of = (one.hypothesis, one.ln_share);
@@ -247,8 +247,8 @@ impl<'a, F: Family> Search<'a, F> {
         Linear::laplace(&model, (&w, &at), self.coarse, of)
     }
 
-    /// Logarithm of the evidence of a hypothesis under all classes of spectra; under all spectra as one where
-    /// data do not tell these apart.
+    /// Log evidence of a hypothesis, summed over all classes of spectra, or under all spectra as one Gaussian
+    /// if data do not distinguish classes.
     pub fn ln_evidence_by_classes(&self, one: &Sorted<F::Hypothesis, F::Second>) -> Option<f64> {
         if !self.family.tells_classes() {
             return Some(one.ln_evidence);
@@ -270,8 +270,8 @@ impl<'a, F: Family> Search<'a, F> {
         Some(LocalMode::of(&model, found, start))
     }
 
-    /// Candidates about the maxima that the most probable class leads to at the fine noise, under each
-    /// hypothesis that comes near to the best; none if no search comes to its end.
+    /// Candidates from linearisation at the fine noise, about the mode under the most probable class of each
+    /// hypothesis that is close to the best; `None` if no search converges.
     fn nearer(&mut self, ranked: &[Candidate<F::Hypothesis>]) -> Option<Vec<Candidate<F::Hypothesis>>> {
         let least = ranked.first()?.ln_evidence + FOLLOWED_LN_EVIDENCE_LEAST;
         let mut firsts: Vec<&Candidate<F::Hypothesis>> = Vec::new();
@@ -284,8 +284,8 @@ impl<'a, F: Family> Search<'a, F> {
         Some(candidates(self.family, linears, self.prior)).filter(|found| !found.is_empty())
     }
 
-    /// The model linear about the maximum under a candidate at the fine noise; none if the search does not
-    /// come to its end.
+    /// The model linearised about the mode under a candidate at the fine noise; `None` if the search does not
+    /// converge.
     fn laplace_fine(&mut self, candidate: &Candidate<F::Hypothesis>) -> Option<Linear<F::Hypothesis>> {
         let start = candidate.start(self.family, self.prior)?;
         let model = self.family.model(start.hypothesis, &start.gaussian)?;
@@ -300,7 +300,7 @@ impl<'a, F: Family> Search<'a, F> {
         }
     }
 
-    /// Carries on the search of most evidence.
+    /// Continues the search of most evidence.
     fn carry_on(&self, found: &mut LocalModes<F>) {
         let most = (0..found.len()).max_by(|a, b| found[*a].ln_evidence.total_cmp(&found[*b].ln_evidence));
         if let Some(LocalMode { start, trace, .. }) = most.map(|most| found.swap_remove(most))
@@ -312,12 +312,12 @@ impl<'a, F: Family> Search<'a, F> {
     }
 }
 
-/// Whether the data are as near to it as their noise lets them be.
+/// True if the data are as close as their noise permits.
 fn explains<H, S>(one: &LocalMode<H, S>) -> bool {
     one.rms < REDUCED_CHI_MOST
 }
 
-/// Adds maxima that the data allow, each once; all of them if there are no others.
+/// Adds modes that explain the data, each once; all of them if there are no others.
 fn add<H: Copy, S>(found: &mut Vec<LocalMode<H, S>>, more: Vec<LocalMode<H, S>>, bands: usize) {
     let all_count = found.is_empty();
     for one in more {
@@ -327,8 +327,8 @@ fn add<H: Copy, S>(found: &mut Vec<LocalMode<H, S>>, more: Vec<LocalMode<H, S>>,
     }
 }
 
-/// Whether another maximum may have more evidence than those that were found: data that are precise show it
-/// already where the search was long.
+/// True if another mode may have more evidence than those found, which precise data show by a poor fit or a
+/// long search.
 fn is_doubtful<H, S>(found: &[LocalMode<H, S>]) -> bool {
     let most = found.iter().max_by(|a, b| a.ln_evidence.total_cmp(&b.ln_evidence));
     most.is_none_or(|most| most.surprise > SURPRISE || most.trace.len() > LONG)

@@ -1,9 +1,9 @@
-//! Whether facets are shaded as those of a fold: light that bounces makes both panels brighter towards the
-//! crease, and of one colour.
+//! Checks that facets are shaded as in a fold: bounces make both panels brighter towards the crease, and the
+//! same in colour.
 //!
-//! These are checks that need no model of a real sheet: where they fail, no spectrum can be measured, however
-//! well some model fits. Their bounds leave room beyond what the photographs show that hyperparameters are
-//! fitted on (`../shared/train`).
+//! These checks need no model of a real sheet: where they fail, no spectrum can be measured, however well a
+//! model fits. Their bounds leave a margin beyond the photographs on which hyperparameters are fitted
+//! (`../shared/train`).
 
 use std::ops::Range;
 
@@ -13,24 +13,25 @@ use super::verdict::{Doubt, Level};
 use crate::forward::FacetValues;
 use crate::geometry::FacetGrid;
 
-/// Rows and columns that panels need for their shading to be seen.
+/// Minimum number of rows and columns for shading to be visible.
 const ROWS_LEAST: usize = 4;
-/// Facets beside the crease that are darker than those at the outer sides by this (natural logarithm): a lens
-/// darkens corners, a crease is rounded, but neither by so much.
+/// Facets next to the crease that are darker than those at the outer sides by this (natural logarithm): a
+/// lens darkens corners and a crease is rounded, but neither has as much effect.
 const DARKER: f64 = 0.1;
-/// The ends of the crease are apart by no more (natural logarithm) in brightness, and in the ratio of two
-/// channels: lens, ground and the place of the sun make less.
+/// Maximum difference (natural logarithm) between the ends of the crease in brightness, and in the ratio of
+/// two channels: lens, ground and the position of the sun cause less.
 const ENDS_APART: f64 = 0.18;
 const END_COLOURS_APART: f64 = 0.14;
-/// Ratios of channels of the panels' outer halves are apart by no more (natural logarithm) in sheets of one
-/// colour: sky, ground and the other panel shine on both of them alike.
+/// Maximum difference (natural logarithm) between the panels' outer halves in the ratios of channels, for
+/// sheets of one colour: sky, ground and the other panel light both alike.
 const COLOURS_APART: f64 = 0.2;
-/// Panels are no further apart in brightness (natural logarithm) than the sun's place makes them.
+/// Maximum difference in brightness between the panels (natural logarithm) beyond the effect of the sun's
+/// position.
 const PANELS_APART: f64 = 0.45;
-/// Standard deviations from which on a difference is no chance.
+/// Standard deviations above which a difference is not due to chance.
 const SURE: f64 = 3.0;
 
-/// The facets of a photographed fold, and those that were to be expected.
+/// The facets of a photographed fold, and those expected.
 pub struct Shading<'a> {
     grid: FacetGrid,
     rgb: &'a FacetValues,
@@ -38,7 +39,7 @@ pub struct Shading<'a> {
     ideal: &'a DMatrix<f64>,
 }
 
-/// A logarithm of a ratio of means, and its standard deviation.
+/// A logarithm of a ratio of means, with its standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Ratio {
     ln: f64,
@@ -46,12 +47,12 @@ struct Ratio {
 }
 
 impl<'a> Shading<'a> {
-    /// Facets of two panels of such a grid; none if there are too few rows.
+    /// Facets of two panels with this grid; `None` if there are too few rows.
     ///
     /// # Arguments
     /// - `rgb`: values; `sd`: standard deviations of their noise.
-    /// - `ideal`: facets of an ideal fold in the scene as it was stated, with the reflectance that was
-    ///   estimated, facet by channel, in any exposure.
+    /// - `ideal`: facets of an ideal fold in the stated scene with the estimated reflectance, facet by
+    ///   channel, at any exposure.
     #[must_use]
     pub fn new(
         grid: FacetGrid,
@@ -62,8 +63,8 @@ impl<'a> Shading<'a> {
         (grid.rows >= ROWS_LEAST && rgb.len() == 2 * grid.len()).then_some(Self { grid, rgb, sd, ideal })
     }
 
-    /// What shows that these are no facets of a fold with this spectrum: in the sun, or else in the light of
-    /// a sky, which is darker where panels meet.
+    /// Signs that these are not facets of a fold with this spectrum, in the sun or else in the light of a
+    /// sky, which is darker where panels meet.
     #[must_use]
     pub fn doubts(&self, is_sunlit: bool) -> Vec<Doubt> {
         let all = [
@@ -75,7 +76,7 @@ impl<'a> Shading<'a> {
         all.into_iter().flatten().collect()
     }
 
-    /// Panels that are further apart in brightness than the sun where it was said to stand makes them.
+    /// Panels that differ more in brightness than the stated position of the sun explains.
     fn uneven_panels(&self) -> Option<Doubt> {
         let all: Vec<f64> = self.panels_apart().map(|apart| apart.ln).collect();
         let mean = all.iter().sum::<f64>() / all.len() as f64;
@@ -92,7 +93,7 @@ impl<'a> Shading<'a> {
         })
     }
 
-    /// Panels of which one end of the crease is brighter than the other, or has another colour.
+    /// Panels on which one end of the crease is brighter than the other, or has a different colour.
     fn uneven_ends(&self) -> Option<Doubt> {
         let third = self.grid.cols / 3;
         let ends = |panel, channel| {
@@ -120,8 +121,8 @@ impl<'a> Shading<'a> {
         })
     }
 
-    /// Panels whose every channel is darker beside the crease than at the outer side, and not because a sky
-    /// was stated.
+    /// Panels on which every channel is darker next to the crease than at the outer side, beyond the effect
+    /// of a stated sky.
     fn darker_at_crease(&self) -> Option<Doubt> {
         let is_darker = |panel: &usize| {
             let rises: Vec<_> = self.rises(*panel).collect();
@@ -147,7 +148,7 @@ impl<'a> Shading<'a> {
         })
     }
 
-    /// Panels of two colours where the other panel shines least on them.
+    /// Panels of two colours, compared where the other panel lights them least.
     fn two_colours(&self) -> Option<Doubt> {
         let (least, most) = extremes(self.panels_apart())?;
         (most.ln - least.ln - SURE * most.sd.hypot(least.sd) > COLOURS_APART).then(|| {
@@ -160,8 +161,8 @@ impl<'a> Shading<'a> {
         })
     }
 
-    /// By how much each channel of a panel is brighter beside the crease than at the outer side, columns that
-    /// were measured at both alone.
+    /// Increase in brightness of each channel of a panel from the outer side to the crease, in columns that
+    /// were measured at both.
     fn rises(&self, panel: usize) -> impl Iterator<Item = (usize, Ratio)> {
         (0..self.rgb.channels()).filter_map(move |channel| Some((channel, self.rise(panel, channel)?)))
     }
@@ -179,7 +180,7 @@ impl<'a> Shading<'a> {
         ))
     }
 
-    /// The same of the ideal fold, in all columns.
+    /// The same for the ideal fold, in all columns.
     fn expected_rise(&self, panel: usize, channel: usize) -> Option<f64> {
         let quarter = self.grid.rows / 4;
         let [inner, outer] = [0..quarter, self.grid.rows - quarter..self.grid.rows]
@@ -187,8 +188,8 @@ impl<'a> Shading<'a> {
         Some((inner / outer).ln()).filter(|ln| ln.is_finite())
     }
 
-    /// By how much each channel is brighter on the outer half of panel 0 than on that of panel 1, beyond what
-    /// an ideal fold makes.
+    /// Ratio of brightness, in each channel, between the outer halves of panels 0 and 1, relative to an ideal
+    /// fold.
     fn panels_apart(&self) -> impl Iterator<Item = Ratio> {
         let outer = self.grid.rows / 2..self.grid.rows;
         (0..self.rgb.channels()).filter_map(move |channel| {
@@ -215,7 +216,7 @@ impl<'a> Shading<'a> {
         Some((self.rgb.get(facet, channel)?, self.sd.get(facet, channel)?.powi(2)))
     }
 
-    /// The mean over some rows and columns, and its variance; none if there is no light.
+    /// The mean over some rows and columns, and its variance; `None` if there is no light.
     fn mean(
         &self,
         panel: usize,
@@ -242,7 +243,7 @@ impl Ratio {
     }
 }
 
-/// The least and the greatest ratio.
+/// The smallest and the largest ratio.
 fn extremes(ratios: impl Iterator<Item = Ratio>) -> Option<(Ratio, Ratio)> {
     let pairs = ratios.map(|ratio| (ratio, ratio));
     pairs.reduce(|(least, most), (ratio, _)| {
@@ -256,7 +257,7 @@ mod tests {
 
     const GRID: FacetGrid = FacetGrid { rows: 8, cols: 3 };
 
-    /// Facets whose value is a function of panel, row and channel.
+    /// Facets whose values are a function of panel, row and channel.
     fn facets(value: impl Fn(usize, usize, usize) -> f64) -> FacetValues {
         let row = |facet: usize| {
             let (panel, row) = (facet / GRID.len(), facet % GRID.len() / GRID.cols);
@@ -265,7 +266,7 @@ mod tests {
         FacetValues::of_rows(&(0..2 * GRID.len()).map(row).collect::<Vec<_>>()).unwrap()
     }
 
-    /// What becomes of facets where an ideal fold has `ideal`.
+    /// Levels of doubt about facets where an ideal fold has `ideal`.
     fn levels_beside(
         ideal: impl Fn(usize, usize, usize) -> f64,
         value: impl Fn(usize, usize, usize) -> f64,
@@ -282,8 +283,8 @@ mod tests {
         levels_beside(|_, row, _| 1.4 - 0.05 * row as f64, value)
     }
 
-    /// A card of another colour as the second panel, and a sky that was stated, make what they make of an
-    /// ideal fold.
+    /// A card of another colour as the second panel, or a stated sky, has the same effect as on an ideal
+    /// fold.
     #[test]
     fn what_was_stated_is_no_doubt() {
         let with_card =

@@ -1,9 +1,9 @@
-//! Shadows on a panel: facets that are darker than those about them and than those opposite, with an edge.
+//! Shadows on a panel: facets darker than their neighbours and than those opposite, with an edge.
 //!
-//! Panels of a fold have the same rows, whatever light bounces between them, and what else sets facets apart
-//! is smooth: logarithms of their brightness are a number for each row and a few products of place and panel.
-//! A shadow is not, and it only darkens: facets that are far below the rest are left out, the darkest first,
-//! until the others agree.
+//! The rows of both panels of a fold are alike, however light bounces between them, and other differences
+//! between facets are smooth: the logarithm of their brightness is a number for each row plus a few products
+//! of position and panel. A shadow is not smooth, and only darkens. Facets far below the rest are left out,
+//! the darkest first, until the others agree.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,24 +12,23 @@ use super::verdict::Doubt;
 use crate::forward::FacetValues;
 use crate::geometry::FacetGrid;
 
-/// Facets that are darker than the rest by this (natural logarithm) are in a shadow: the least of 48
-/// photographs (`../shared/train`) that leaves none of them with one.
+/// Facets darker than the rest by this (natural logarithm) are in a shadow: the smallest value that finds
+/// none in 48 photographs (`../shared/train`).
 const DARK: f64 = 0.07;
-/// Their own noise makes no facet that dark, in standard deviations.
+/// A facet must also be darker than its noise explains, by this many standard deviations.
 const SURE: f64 = 4.0;
-/// A shadow covers more than one square of two by two facets: corners that are marked wrong darken single
-/// rows.
+/// A shadow covers several squares of two by two facets: wrongly marked corners darken single rows.
 const SQUARES: usize = 3;
-/// Rows and columns that panels need for a shadow to have an edge there.
+/// Minimum number of rows and columns for a shadow to have an edge.
 const LEAST: usize = 4;
-/// Share of all facets that is left out at once, and that the rest must be to tell what is dark.
+/// Share of all facets that is left out at once, and the minimum share that must remain for comparison.
 const AT_ONCE: f64 = 0.04;
 const REST: f64 = 0.5;
-/// Rounds until nothing is left to be left out, at the latest.
+/// Maximum number of rounds.
 const ROUNDS: usize = 30;
-/// Keeps rows that were not measured from being anything.
+/// Regularises rows without measured facets.
 const RIDGE: f64 = 1e-9;
-/// Products of place and panel.
+/// Number of products of position and panel.
 const SMOOTH: usize = 8;
 
 /// A shadow on a panel.
@@ -37,12 +36,12 @@ const SMOOTH: usize = 8;
 pub struct Shadow {
     /// The panel.
     pub panel: usize,
-    /// The facets in it and beside it, counted over both panels.
+    /// The facets in and next to it, numbered over both panels.
     pub facets: Vec<usize>,
 }
 
 impl Shadow {
-    /// The shadows on a fold with such panels, at most one on each.
+    /// The shadows on a fold with these panels, at most one on each.
     ///
     /// # Example
     /// ```
@@ -79,13 +78,13 @@ impl Shadow {
         [0, 1].into_iter().filter_map(on_panel).collect()
     }
 
-    /// Facets but for those in shadows.
+    /// The facets without those in shadows.
     #[must_use]
     pub fn left_out(shadows: &[Self], rgb: &FacetValues) -> FacetValues {
         rgb.without(shadows.iter().flat_map(|shadow| shadow.facets.iter().copied()))
     }
 
-    /// What it makes of an estimate: the light that its facets do not throw on others is not known.
+    /// The doubt that it casts on an estimate: the light from its facets to others is unknown.
     #[must_use]
     pub fn doubt(&self) -> Doubt {
         let (count, panel) = (self.facets.len(), self.panel);
@@ -96,7 +95,7 @@ impl Shadow {
     }
 }
 
-/// Which facets are darker than the rest.
+/// For each facet, true if it is darker than the rest.
 fn dark(grid: FacetGrid, Measured { rgb, sd }: &Measured) -> Vec<bool> {
     let level = |facet: usize| {
         let sum = rgb.facet(facet)?.sum();
@@ -110,7 +109,7 @@ fn dark(grid: FacetGrid, Measured { rgb, sd }: &Measured) -> Vec<bool> {
     let mut dark = vec![false; rgb.len()];
     for _ in 0..ROUNDS {
         let Some(smooth) = fit(&places, &levels, &is_kept) else { break };
-        // how far below the rest, in units of what is dark
+        // depth below the rest, in units of the threshold
         let depth = |facet: usize| levels[facet].map(|(ln, dark)| (smooth.dot(&places[facet]) - ln) / dark);
         let depths: Vec<f64> = (0..rgb.len()).map(|facet| depth(facet).unwrap_or(0.0)).collect();
         dark = (0..rgb.len()).map(|facet| !is_kept[facet] && depths[facet] > 1.0).collect();
@@ -130,7 +129,7 @@ fn dark(grid: FacetGrid, Measured { rgb, sd }: &Measured) -> Vec<bool> {
     dark
 }
 
-/// Where a facet is: its row, then products of its place and its panel.
+/// Regressors of a facet: its row, then products of its position and its panel.
 fn place(grid: FacetGrid, facet: usize) -> DVector<f64> {
     let [row, column] = grid.place(facet % grid.len());
     let side = if facet < grid.len() { -1.0 } else { 1.0 };
@@ -152,7 +151,7 @@ fn place(grid: FacetGrid, facet: usize) -> DVector<f64> {
     place
 }
 
-/// What the facets that are kept have, by place; none if they tell nothing.
+/// Fits the facets that are kept, by their regressors; `None` if this is impossible.
 fn fit(places: &[DVector<f64>], levels: &[Option<(f64, f64)>], is_kept: &[bool]) -> Option<DVector<f64>> {
     let numbers = places.first()?.len();
     let mut products = RIDGE * DMatrix::identity(numbers, numbers);
@@ -165,7 +164,7 @@ fn fit(places: &[DVector<f64>], levels: &[Option<(f64, f64)>], is_kept: &[bool])
     Some(products.cholesky()?.solve(&sums))
 }
 
-/// Squares of two by two facets of a panel that all are dark.
+/// Number of squares of two by two facets on a panel that are entirely dark.
 fn squares(grid: FacetGrid, dark: &[bool]) -> usize {
     let is_dark = |row: usize, column: usize| dark[row * grid.cols + column];
     let is_square = |row: usize, column: usize| {
@@ -175,7 +174,7 @@ fn squares(grid: FacetGrid, dark: &[bool]) -> usize {
     all.filter(|(row, column)| is_square(*row, *column)).count()
 }
 
-/// Facets of a panel that are dark or beside one that is: edges of shadows are soft.
+/// Facets of a panel that are dark or next to a dark one, as the edges of shadows are soft.
 fn neighbours(grid: FacetGrid, dark: &[bool]) -> impl Iterator<Item = usize> {
     (0..grid.len()).filter(move |facet| {
         let [row, column] = grid.place(*facet);

@@ -1,12 +1,12 @@
-//! Errors of a spectrum that neighbouring wavebands share.
+//! Errors of a spectrum that are shared by neighbouring wavebands.
 
 use nalgebra::DMatrix;
 
-/// Over so many nanometres what an instrument, a light or a camera says is off alike.
+/// Range in nm over which errors of an instrument, a light or a camera are alike.
 const ALIKE_NM: f64 = 60.0;
 
-/// Independent errors, one per row, that are smooth over wavelengths and together as large as `sd` in every
-/// waveband; none without wavelengths.
+/// Independent errors, one per row, smooth over wavelength, whose total is `sd` in every waveband; `None`
+/// without wavelengths.
 ///
 /// # Arguments
 /// - `wavelengths_nm`: increasing; `sd`: standard deviation, one per wavelength.

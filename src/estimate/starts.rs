@@ -1,8 +1,8 @@
-//! Where else to look for the most probable spectrum: from the means of classes.
+//! Other starting points for the search of the most probable spectrum: the means of classes.
 //!
-//! Of one channel or two, spectra of every kind make the same (in light of one colour a red sheet may be a
-//! blue one), and many channels that are nearly alike mislead. Precise facets have several maxima, and the
-//! one that all spectra as one Gaussian lead to may be false.
+//! With one or two channels, spectra of every class can have the same effect (in light of one colour a red
+//! sheet may be a blue one), and many channels that are nearly alike mislead. Precise facets have several
+//! modes, and the one to which all spectra as one Gaussian lead may be false.
 
 use nalgebra::DVector;
 
@@ -14,36 +14,36 @@ use super::prior::{Class, Prior};
 use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Model, find_mode, first_tempering};
 
-/// Maxima from the means of classes are distinguished this near to them.
+/// Tolerance of modes searched from the means of classes, in standard deviations.
 const TOLERANCE_FROM_MEANS: f64 = 0.3;
-/// Most iterations of a search from a mean.
+/// Maximum number of iterations of a search from a mean.
 const ITERATION_LIMIT: usize = 500;
-/// Searches are from so many means that come nearest to the data, the noise being so many times that at which
-/// the searches end: from all of them no fewer maxima are false.
+/// Searches start from this many means that are closest to the data, at noise this many times that at which
+/// the searches end; starting from all of them leads to no fewer false modes.
 const MEANS: usize = 24;
 const NEAREST_TEMPERING: f64 = 10.0;
-/// A quick search sets out from noise so many times that at which it ends, ends after so many iterations, and
-/// moves so many coordinates of a class.
+/// A quick search starts with noise this many times that at which it ends, stops after this many iterations,
+/// and moves this many coordinates of a class.
 const QUICK_TEMPERING: f64 = 10.0;
 const QUICK_LIMIT: usize = 6;
 const QUICK_COORDINATES: usize = 10;
-/// So many quick searches are followed to noise so many times the fine one, as near to the maximum there as
-/// that, in so many iterations at most.
+/// This many quick searches are continued to noise this many times the fine one, to this tolerance of the
+/// mode there, within this number of iterations.
 const FOLLOWED: usize = 14;
 const FOLLOWED_TEMPERING: f64 = 2.0;
 const FOLLOWED_TOLERANCE: f64 = 0.1;
 const FOLLOWED_LIMIT: usize = 20;
-/// All of them are followed while an estimate has taken fewer iterations, at least one is: where nothing
-/// comes to an end, no class is like the spectrum.
+/// They are continued as long as an estimate has taken fewer iterations than this, but at least one is: where
+/// none converges, no class resembles the spectrum.
 const ESTIMATE_LIMIT: usize = 260;
-/// Classes are distinguished at so many maxima, and so many are searched of those that come near to the best,
-/// as the logarithm of a share of its evidence.
+/// Maximum number of modes at which classes are distinguished; number of candidates searched, and their log
+/// evidence relative to the best.
 const PLACES: usize = 5;
 const SEARCHED: usize = 4;
 const LN_EVIDENCE_NEAR: f64 = -10.0;
 
-/// The classes of most evidence at the maxima that the means nearest to the data lead to, the noise
-/// `tempering` times its size; all of them none if there are too few channels to separate the classes.
+/// The classes of most evidence at the modes reached from the means closest to the data, with the noise
+/// scaled by `tempering`; those from all means if there are too few channels to separate the classes.
 pub fn from_means<F: Family>(
     family: &F,
     hypothesis: F::Hypothesis,
@@ -61,8 +61,8 @@ pub fn from_means<F: Family>(
     found
 }
 
-/// The classes of most evidence at the maxima that the means lead to: quickly where the noise is `coarse`
-/// times its size, then to the end near `fine` times, after an estimate has taken so many iterations.
+/// The classes of most evidence at the modes reached from the means: by quick searches at `coarse` times the
+/// noise, continued to near `fine` times the noise, after an estimate has taken this many `iterations`.
 pub fn between_means<F: Family>(
     family: &F,
     hypothesis: F::Hypothesis,
@@ -105,21 +105,21 @@ pub fn between_means<F: Family>(
     found
 }
 
-/// Searches from the means of classes.
+/// Searches that start from the means of classes.
 struct FromMeans<H> {
     hypothesis: H,
-    /// From so many that are nearest to the facets.
+    /// Number of means, those closest to the facets.
     means: usize,
-    /// How many times its size the noise is at first, if not less, and at last.
+    /// Multiples of the noise: the maximum at the start, and that at the end.
     noise: (f64, f64),
-    /// Most iterations of each.
+    /// Maximum number of iterations of each search.
     limit: usize,
-    /// Coordinates of a class that are moved.
+    /// Number of coordinates of a class that are moved.
     coordinates: usize,
 }
 
 impl<H: Copy> FromMeans<H> {
-    /// Classes by their evidence where the searches end.
+    /// Classes in order of evidence where the searches end.
     fn starts<F: Family<Hypothesis = H>>(&self, family: &F, prior: &Prior) -> Vec<Start<H>> {
         let &Self { hypothesis, means, noise: (most, last), limit, coordinates } = self;
         let ln_shares = family.ln_class_shares(hypothesis, prior);
@@ -147,8 +147,8 @@ impl<H: Copy> FromMeans<H> {
     }
 }
 
-/// Classes by how near their means come to the data, the noise `tempering` times its size, and by their
-/// shares.
+/// Classes in order of the distance of their means from the data, with the noise scaled by `tempering`, and
+/// of their probabilities.
 fn nearest_means<F: Family>(
     family: &F,
     hypothesis: F::Hypothesis,
@@ -166,7 +166,7 @@ fn nearest_means<F: Family>(
     nearest.into_iter().map(|(_, class)| class).collect()
 }
 
-/// By their evidence, most first, and none that is another one again.
+/// Sorts by decreasing evidence and drops duplicates.
 fn distinct<H>(mut starts: Vec<Start<H>>) -> Vec<Start<H>> {
     starts.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
     let mut kept: Vec<(Start<H>, DVector<f64>)> = Vec::new();

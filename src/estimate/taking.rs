@@ -1,4 +1,4 @@
-//! What was stated of light and camera, and what speaks against it in how a photograph was taken.
+//! The stated light and camera, and doubts that arise from how a photograph was taken.
 
 use std::fmt;
 
@@ -7,25 +7,25 @@ use crate::image::{Making, Processing};
 use crate::spectrum::is_other_camera;
 use crate::spectrum::library::{What, is_built_in};
 
-/// Light and camera as stated.
+/// The stated light and camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stated {
-    /// Names of the lights; none if nobody stated any.
+    /// Names of the lights; empty if none was stated.
     pub lights: Vec<String>,
-    /// Whether daylight was assumed, as nobody stated a light.
+    /// True if daylight was assumed, because no light was stated.
     pub is_daylight_assumed: bool,
     /// Name of the camera.
     pub camera: String,
-    /// The camera that took the picture, if nobody measured its curves and another's stand in for them.
+    /// The camera that took the picture, if its sensitivities were not measured and others stand in for them.
     pub stands_in_for: Option<String>,
-    /// Whether its sensitivities are predicted from its colour matrix rather than another's.
+    /// True if the sensitivities are predicted from its colour matrix rather than those of another camera.
     pub is_predicted: bool,
-    /// Whether all channels have the same peak, as curves have that are scaled one by one.
+    /// True if all channels have the same peak, as when they are scaled one by one.
     pub has_one_peak: bool,
 }
 
 impl Stated {
-    /// The same where the light was found.
+    /// The same for an inferred light.
     #[must_use]
     pub fn but_light(self) -> Self {
         Self { lights: Vec::new(), is_daylight_assumed: false, ..self }
@@ -44,7 +44,7 @@ impl fmt::Display for Stated {
     }
 }
 
-/// What speaks against an estimate from how the photograph was taken.
+/// Doubts that arise from how the photograph was taken.
 #[must_use]
 pub fn doubts_of_taking(stated: &Stated, making: &Making) -> Vec<Doubt> {
     let all = [
@@ -114,7 +114,7 @@ fn open_sides(making: &Making) -> Option<Doubt> {
     })
 }
 
-/// Corners that are not those of the fold that was stated.
+/// Corners that do not belong to the stated fold.
 fn other_fold(making: &Making) -> Option<Doubt> {
     making.other_fold.map(|other| {
         Doubt::new(
@@ -125,9 +125,9 @@ fn other_fold(making: &Making) -> Option<Doubt> {
     })
 }
 
-/// Curves scaled one by one have lost what one channel's light is of another's. Of built-in cameras that were
-/// published so (docs/spectra.md) the verdict says it without a doubt: the paper, and samples simulated by
-/// them, take them as they are.
+/// Sensitivities scaled one by one have lost the ratios of the channels. For built-in cameras published like
+/// that (docs/spectra.md) the verdict says so without doubting: the paper, and samples simulated with them,
+/// take them as they are.
 fn scaled(Stated { camera, has_one_peak, .. }: &Stated) -> Option<Doubt> {
     (*has_one_peak && !is_built_in(What::Cameras, camera)).then(|| {
         Doubt::new(
@@ -155,7 +155,7 @@ fn stand_in(stated: &Stated) -> Option<Doubt> {
     })
 }
 
-/// A camera that EXIF says is another than the one that was stated.
+/// EXIF data that name another camera than the stated one.
 fn another_camera(stated: &Stated, making: &Making) -> Option<Doubt> {
     let (make, model) = &making.taken_by;
     let is_other = stated.stands_in_for.is_none() && is_other_camera(&stated.camera, make, model);

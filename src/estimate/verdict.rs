@@ -1,8 +1,8 @@
-//! Whether an estimate can be trusted: good, doubtful or wrong, why, and what to do.
+//! The verdict on an estimate: good, doubtful or wrong, with the reason and the remedy.
 //!
-//! It rests on evidence: how far the facets are from the model, whether another scene than the one that was
-//! stated explains them better, and how much of the spectrum they leave open. What no facet can check, the
-//! colour of the light and the camera's sensitivities, is named.
+//! It rests on evidence: how far the facets are from the model, whether another scene than the stated one
+//! explains them better, and how much of the spectrum they leave open. Things that no facet can check, the
+//! colour of the light and the camera's sensitivities, are named.
 
 use std::{fmt, iter};
 
@@ -12,33 +12,32 @@ use super::unknowns::{ANGLE, EXPOSURE, Normal};
 use super::{Estimate, Exposure, Fitted};
 use crate::error::{Error, Result};
 
-/// Reduced chi beyond which the scene cannot be right.
+/// Reduced chi above which the scene cannot be right.
 pub const WRONG_CHI: f64 = 5.0;
-/// Mean standard deviation of the reflectance from which on the facets leave too much open.
+/// Mean standard deviation of the reflectance above which the facets leave too much open.
 const OPEN: f64 = 0.06;
-/// Probability of no bounces from which on an estimate is doubtful, and wrong.
+/// Probabilities of no bounces above which an estimate is doubtful, and wrong.
 const PROBABLY_NO_FOLD: f64 = 0.5;
 const NO_FOLD: f64 = 0.9;
-/// Standard deviations of the sum of squared residuals beyond which chance does not explain it.
+/// Standard deviations of the sum of squared residuals above which chance does not explain it.
 const CHANCE: f64 = 5.0;
-/// An exposure is doubtful that is brighter than nineteen in twenty, in standard deviations of those that
-/// people take, and wrong if it is this much brighter or darker: one that is too dark makes noise, where one
-/// that is too bright asks for pixels that no picture holds.
+/// An exposure is doubtful if it is brighter than nineteen in twenty (in standard deviations of usual
+/// exposures), and wrong if it is this much brighter or darker. Too dark an exposure only means noise, but
+/// too bright a one requires pixel values that no picture can hold.
 const EXPOSURE_DOUBTFUL: f64 = 1.65;
 const EXPOSURE_WRONG: f64 = 3.25;
-/// A sheet that is darker than this in its brightest waveband is exposed longer: by the root of how much
+/// A sheet darker than this in its brightest waveband is exposed longer, by the square root of how much
 /// darker it is.
 const DARK_SHEET: f64 = 0.2;
-/// No sheet is darker than that in its brightest waveband.
+/// Lower bound on the brightest waveband of any sheet.
 const DARKEST_SHEET: f64 = 0.03;
-/// Facets say something else than was stated if that is so many standard deviations away; an exposure also by
-/// this logarithm of a factor.
+/// Facets contradict a statement if it is this many standard deviations away; an exposure must in addition
+/// differ by this logarithm of a factor.
 const SURE: f64 = 3.0;
 const EXPOSURE_APART: f64 = 0.1;
-/// Share of the light that may be left over beyond what noise makes: a spectrum fitted to the rest means
-/// nothing.
+/// Share of unexplained light, beyond noise, above which a spectrum fitted to the rest is meaningless.
 const UNEXPLAINED: f64 = 0.3;
-/// What may be wrong where facets are not as they should be.
+/// Possible causes if facets are not as they should be.
 const CHECK: &str = "check angle, corners, light, camera and exposure";
 
 impl fmt::Display for Verdict {
@@ -48,24 +47,24 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// What is thought of an estimate.
+/// The verdict on an estimate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verdict {
-    /// How far it can be trusted.
+    /// Trustworthiness.
     pub level: Level,
-    /// Why.
+    /// The reason.
     pub because: String,
-    /// What to do; none if it is good.
+    /// What to do; `None` if the estimate is good.
     pub remedy: Option<String>,
 }
 
 impl Verdict {
-    /// The verdict on an estimate that knows its errors.
+    /// The verdict on an estimate with error bars.
     ///
     /// # Arguments
-    /// - `doubts`: what speaks against it beside its own numbers, causes first; what stands first among the
-    ///   gravest is the verdict's reason, and what stands first of all is said too, as it may be the cause.
-    /// - `assumed`: what no facet can check, in words: light and camera.
+    /// - `doubts`: doubts other than those from its own numbers, causes first. The first among the gravest is
+    ///   the verdict's reason; the first of all is mentioned too, as it may be the cause.
+    /// - `assumed`: things that no facet can check, in words: light and camera.
     #[must_use]
     pub fn of(estimate: &Estimate, doubts: Vec<Doubt>, assumed: &str) -> Self {
         let own = [without_bounces(estimate), far_off(estimate), open(estimate)];
@@ -97,16 +96,16 @@ impl Verdict {
     }
 }
 
-/// Refuses facets of which too much is neither noise nor what any reflectance gives, such as those a thousand
-/// times too bright.
+/// Refuses facets if neither noise nor any reflectance explains enough of their light, such as facets a
+/// thousand times too bright.
 ///
 /// # Arguments
-/// - `noise`: standard deviation of the facets in the unit of the estimate's residuals; 1 where these are in
+/// - `noise`: standard deviation of the facets in units of the estimate's residuals; 1 if these are in
 ///   standard deviations.
 ///
 /// # Errors
-/// [`Error::Field`] if the estimate leaves that much of the light over; as `noise`, which is asked then
-/// alone.
+/// [`Error::Field`] if the estimate leaves this much light unexplained; as `noise`, which is called only in
+/// this case.
 pub fn refuse_unexplained(estimate: &Estimate, noise: impl FnOnce() -> Result<f64>) -> Result<()> {
     if estimate.unexplained <= UNEXPLAINED || estimate.residual_rms <= WRONG_CHI * noise()? {
         return Ok(());
@@ -119,11 +118,10 @@ pub fn refuse_unexplained(estimate: &Estimate, noise: impl FnOnce() -> Result<f6
     Err(Error::field("facet_rgb", problem))
 }
 
-/// An exposure that people do not take: white that faces the sun too many times as bright as the white level
-/// of the picture.
+/// An unusual exposure: white facing the sun is too many times as bright as the white level of the picture.
 ///
 /// # Arguments
-/// - `stated`: the exposure that somebody stated, which then is what to look at.
+/// - `stated`: the stated exposure, if any, which the remedy then questions.
 #[must_use]
 pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doubt> {
     let exposure = stated.unwrap_or(estimate.exposure);
@@ -148,7 +146,7 @@ pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doub
     })
 }
 
-/// An exposure that was stated where the facets say another.
+/// A stated exposure that the facets contradict.
 #[must_use]
 pub fn other_exposure(stated: Exposure, found: &Estimate) -> Option<Doubt> {
     let Fitted { value, sd, .. } = found.fitted.iter().find(|one| one.unknown == &EXPOSURE)?;
@@ -164,7 +162,7 @@ pub fn other_exposure(stated: Exposure, found: &Estimate) -> Option<Doubt> {
     })
 }
 
-/// An angle that was stated where the facets say another, which the estimate does not take.
+/// A stated angle that the facets contradict, and that the estimate does not correct.
 #[must_use]
 pub fn other_angle(found: &Estimate, stated_deg: f64) -> Option<Doubt> {
     let Fitted { value, sd, .. } = found.fitted.iter().find(|one| one.unknown == &ANGLE)?;
@@ -176,8 +174,8 @@ pub fn other_angle(found: &Estimate, stated_deg: f64) -> Option<Doubt> {
     })
 }
 
-/// Something about the photograph that is further from what is usual than people err and sheets differ: it is
-/// no longer only allowed for.
+/// Findings about the photograph beyond the usual errors of users and differences of sheets, so that allowing
+/// for them is not enough.
 #[must_use]
 pub fn unusual_findings(estimate: &Estimate) -> Vec<Doubt> {
     let unusual = estimate.findings.iter().filter(|finding| finding.is_unusual);
@@ -186,7 +184,7 @@ pub fn unusual_findings(estimate: &Estimate) -> Vec<Doubt> {
         .collect()
 }
 
-/// Panels between which no light bounces, probably.
+/// Panels between which probably no light bounces.
 fn without_bounces(estimate: &Estimate) -> Option<Doubt> {
     let level = if estimate.without_bounces > NO_FOLD { Level::Wrong } else { Level::Doubtful };
     (estimate.without_bounces > PROBABLY_NO_FOLD).then(|| Doubt {
@@ -200,7 +198,7 @@ fn without_bounces(estimate: &Estimate) -> Option<Doubt> {
     })
 }
 
-/// Facets that are not those of the scene.
+/// Facets that do not belong to the scene.
 fn far_off(estimate: &Estimate) -> Option<Doubt> {
     let rms = estimate.residual_rms;
     let level = if rms > WRONG_CHI { Level::Wrong } else { Level::Doubtful };
@@ -211,14 +209,14 @@ fn far_off(estimate: &Estimate) -> Option<Doubt> {
     })
 }
 
-/// Standard deviation of the reflectance in the mean over all wavebands, if the facets leave too much open.
+/// Standard deviation of the reflectance, averaged over all wavebands, if the facets leave too much open.
 fn too_open(estimate: &Estimate) -> Option<f64> {
     let sd = estimate.reflectance_sd()?;
     let mean = sd.iter().sum::<f64>() / sd.len() as f64;
     (mean > OPEN).then_some(mean)
 }
 
-/// A spectrum of which the facets tell little.
+/// A spectrum that the facets hardly determine.
 fn open(estimate: &Estimate) -> Option<Doubt> {
     too_open(estimate).map(|mean| {
         Doubt::new(
@@ -228,8 +226,7 @@ fn open(estimate: &Estimate) -> Option<Doubt> {
     })
 }
 
-/// Computed facets further from the model than their noise allows, by chance alone; `values` is how many
-/// there are.
+/// Computed facets further from the model than chance allows for their noise; `values` is their number.
 #[must_use]
 pub fn beyond_chance(estimate: &Estimate, values: usize) -> Option<Doubt> {
     let off = (estimate.residual_rms.powi(2) - 1.0) * (values as f64 / 2.0).sqrt();

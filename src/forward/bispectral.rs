@@ -1,5 +1,4 @@
-//! A sheet of which a Donaldson matrix says what it makes of light of other wavelengths: every bounce excites
-//! it.
+//! A sheet described by a Donaldson matrix, which light excites again at every bounce.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,10 +6,10 @@ use super::model::FacetModel;
 use crate::error::{Error, Result};
 use crate::spectrum::{Bispectral, Outside, Spectrum, WavelengthGrid};
 
-/// A surface of one matt sheet that is excited by all light that falls on it.
+/// A surface made of one matte sheet that is excited by all light falling on it.
 ///
-/// Light of all wavelengths is exchanged alike, by one kernel: mode by mode the wavebands hand light to each
-/// other as patches do, and b = (I − gD)⁻¹ D s for a mode of the pole g, the light s and the matrix D.
+/// One kernel serves all wavelengths. Within a mode of pole g the wavebands exchange light as patches do: b =
+/// (I − gD)⁻¹ D s for the light s and the Donaldson matrix D.
 #[derive(Clone, Debug)]
 pub struct BispectralSheet<'a> {
     model: &'a FacetModel,
@@ -18,7 +17,7 @@ pub struct BispectralSheet<'a> {
     lights: &'a [BispectralLight],
 }
 
-/// The power of a light in the wavebands of a scene and in the bands that excite a sheet, in one unit.
+/// The power of a light in the wavebands of a scene and in the bands that excite a sheet, in the same unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BispectralLight {
     in_scene: Vec<f64>,
@@ -26,11 +25,11 @@ pub struct BispectralLight {
 }
 
 impl BispectralLight {
-    /// That of `light`, which is dark where its samples do not reach to the bands.
+    /// Samples `light`; excitation bands that it does not cover count as dark.
     ///
     /// # Errors
     /// [`Error::Spectrum`] if it does not cover `grid`, or has no power in a waveband in which the sheet
-    /// fluoresces: that is no part of white's light.
+    /// fluoresces: emission is expressed relative to white in the same light.
     pub fn new(light: &Spectrum, grid: &WavelengthGrid, sheet: &Bispectral) -> Result<Self> {
         let in_scene = light.on(grid, Outside::Refuse)?;
         let in_bands: DVector<f64> = light.on(&sheet.excitation, Outside::Zero)?.into();
@@ -57,11 +56,11 @@ impl BispectralLight {
 }
 
 impl<'a> BispectralSheet<'a> {
-    /// That of a model, a light for each of its sources.
+    /// The sheet of a model, with a light for each of its sources.
     ///
     /// # Errors
-    /// [`Error::Field`] if a part of the surface is of known reflectance, which says nothing of the
-    /// ultraviolet that it hands on.
+    /// [`Error::Field`] if a part of the surface has a known reflectance, as that does not cover the
+    /// ultraviolet.
     ///
     /// # Example
     /// ```
@@ -85,7 +84,7 @@ impl<'a> BispectralSheet<'a> {
     /// ```
     ///
     /// # Panics
-    /// If there are not as many lights as sources.
+    /// If the number of lights differs from the number of sources.
     pub fn new(model: &'a FacetModel, sheet: &'a Bispectral, lights: &'a [BispectralLight]) -> Result<Self> {
         assert_eq!(lights.len(), model.sources().len(), "one light per source");
         if model.is_of_one_sheet() {
@@ -96,8 +95,7 @@ impl<'a> BispectralSheet<'a> {
         Err(Error::field("fluorescence", problem))
     }
 
-    /// What the flat sheet sends out of white's light in the first of the lights, one number from 0 per
-    /// waveband.
+    /// Total radiance factor of the flat sheet in the first light, one number from 0 per waveband.
     #[must_use]
     pub fn total_radiance_factor(&self) -> Vec<f64> {
         self.lights.first().map_or_else(Vec::new, |light| self.sent(light, 0.0))
@@ -109,13 +107,13 @@ impl<'a> BispectralSheet<'a> {
         self.model.rgb_of_modes(|source, g| self.sent(&self.lights[source], g))
     }
 
-    /// What light adds to it that has bounced more than `bounces` times, as [`FacetModel::facet_rgb_after`].
+    /// The part of it that has bounced more than `bounces` times, as [`FacetModel::facet_rgb_after`].
     #[must_use]
     pub fn facet_rgb_after(&self, bounces: u32) -> DMatrix<f64> {
         self.model.rgb_of_modes(|source, g| self.sent_after(bounces, &self.lights[source], g))
     }
 
-    /// What a mode of the pole `g` sends out per waveband, in parts of the light.
+    /// Light leaving a mode of pole `g` per waveband, relative to the light.
     fn sent(&self, light: &BispectralLight, g: f64) -> Vec<f64> {
         self.sent_of(light, light, g)
     }
@@ -132,12 +130,11 @@ impl<'a> BispectralSheet<'a> {
         self.sent_of(&falling, light, g)
     }
 
-    /// What a mode of the pole `g` sends out, all bounces included, of light that is `falling`, in parts of
-    /// `light`.
+    /// Light leaving a mode of pole `g`, all bounces included, when `falling` arrives, relative to `light`.
     fn sent_of(&self, falling: &BispectralLight, light: &BispectralLight, g: f64) -> Vec<f64> {
         let bands = falling.in_bands.len();
         let exchange = DMatrix::identity(bands, bands) - g * &self.sheet.between_bands;
-        // Poles and reflectances are below 1, and what fluoresces never excites itself: there is a solution.
+        // Poles and reflectances are below 1, and emission never excites itself: a solution exists.
         let in_all = exchange.lu().solve(&falling.in_bands).unwrap_or_else(|| falling.in_bands.clone());
         let emitted = &self.sheet.fluorescence * in_all;
         let bands =
@@ -149,7 +146,7 @@ impl<'a> BispectralSheet<'a> {
         bands.map(part).collect()
     }
 
-    /// The light that falls on a mode of the pole `g` at the bounce after that at which `light` falls.
+    /// Light arriving at a mode of pole `g` one bounce after `light` arrives.
     fn next_bounce(&self, light: &BispectralLight, g: f64) -> BispectralLight {
         let emitted = &self.sheet.fluorescence * &light.in_bands;
         let reflected = self.sheet.reflectance.iter().zip(&light.in_scene).map(|(r, power)| r * power);

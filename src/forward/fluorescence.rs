@@ -1,5 +1,4 @@
-//! A sheet that fluoresces: it sends out light of longer wavelengths than it takes in, beside what it
-//! reflects.
+//! A fluorescent sheet: it reflects light, and also emits light of longer wavelengths than it absorbs.
 
 use nalgebra::DMatrix;
 
@@ -7,10 +6,10 @@ use super::families::Family;
 use super::model::FacetModel;
 use crate::error::{Error, Result};
 
-/// A surface of one matt sheet that sends out, wherever light falls on it directly, a part of white's light
-/// beside what it reflects.
+/// A surface made of one matte sheet that, where light falls on it directly, reflects it and emits a fraction
+/// of what white would reflect.
 ///
-/// Both bounce alike: B = (I − ρK)⁻¹ (ρ + f) E₀ in every waveband, f being the part.
+/// Both bounce alike: B = (I − ρK)⁻¹ (ρ + f) E₀ in every waveband, where f is that fraction.
 #[derive(Clone, Copy, Debug)]
 pub struct Fluorescing<'a> {
     model: &'a FacetModel,
@@ -19,12 +18,12 @@ pub struct Fluorescing<'a> {
 }
 
 impl<'a> Fluorescing<'a> {
-    /// A sheet of this `reflectance` and `fluorescence`, the latter as a part of white in the same light, one
+    /// A sheet of this `reflectance` and `fluorescence`, the latter relative to white in the same light, one
     /// number from 0 per waveband.
     ///
     /// # Errors
-    /// [`Error::Field`] if a part of the surface is of known reflectance: light by way of it would excite the
-    /// sheet by an amount that `fluorescence` does not say.
+    /// [`Error::Field`] if a part of the surface has a known reflectance: light reflected by it would excite
+    /// the sheet by an amount that `fluorescence` does not specify.
     ///
     /// # Example
     /// ```
@@ -55,14 +54,14 @@ impl<'a> Fluorescing<'a> {
         self.model.facet_rgb(self.reflectance) + self.emitted(Family::gain)
     }
 
-    /// What light adds to it that has bounced more than `bounces` times, as [`FacetModel::facet_rgb_after`].
+    /// The part of it that has bounced more than `bounces` times, as [`FacetModel::facet_rgb_after`].
     #[must_use]
     pub fn facet_rgb_after(&self, bounces: u32) -> DMatrix<f64> {
         let emitted = self.emitted(|family, r, g| family.gain_after(bounces, r, g));
         self.model.facet_rgb_after(bounces, self.reflectance) + emitted
     }
 
-    /// RGB of what is sent out and bounces, `gain` being what becomes of it.
+    /// RGB of emitted light with its bounces, which multiply it by `gain`.
     fn emitted(&self, gain: impl Fn(&Family, f64, f64) -> f64) -> DMatrix<f64> {
         self.model.rgb_of(self.reflectance, Some(self.fluorescence), gain)
     }

@@ -1,4 +1,5 @@
-//! The facet model of a fold: every mode of a panel's response gives one or two terms, three beside a card.
+//! The facet model of a fold: every mode of a panel's response contributes one or two terms, or three with a
+//! card.
 
 use nalgebra::{DMatrix, DVectorView};
 
@@ -14,8 +15,8 @@ impl FacetModel {
         Self::under(response, lighting, None)
     }
 
-    /// A fold whose `panel` (0 or 1) is a card of known `reflectance` on the scene's wavelengths, the other
-    /// one the sheet.
+    /// A fold with a card of known `reflectance` (per waveband of the scene) as `panel` (0 or 1) and the
+    /// sheet as the other.
     #[must_use]
     pub fn with_card(response: &Response, lighting: &Lighting, panel: usize, reflectance: Vec<f64>) -> Self {
         Self::under(response, lighting, Some(Card { panel, reflectance }))
@@ -27,8 +28,8 @@ impl FacetModel {
         Self::new(std::slice::from_ref(response), &lights, card)
     }
 
-    /// A fold of one sheet, or of a sheet and a card, with a source for each of `lights`. Several
-    /// `responses`, of as many facets each, are the fold at several angles.
+    /// A fold of one sheet, or of a sheet and a card, with one source per entry of `lights`. Several
+    /// `responses` with equal numbers of facets describe the fold at several angles.
     #[must_use]
     pub fn new(responses: &[Response], lights: &[Lit], card: Option<Card>) -> Self {
         let poles = responses.iter().flat_map(Response::poles).collect();
@@ -47,7 +48,7 @@ impl FacetModel {
     }
 }
 
-/// A light on a fold whose poles begin at `first`.
+/// A light on a fold, the poles of whose response begin at index `first`.
 fn source(terms: &Terms, response: &Response, first: usize, lit: &Lit) -> Source {
     let mut facets = DMatrix::zeros(2 * response.facets(), terms.count());
     for panel in [0, 1] {

@@ -7,18 +7,17 @@ use crate::response::ModeLight;
 /// The lights of a scene as the camera responds to them.
 #[derive(Clone, Debug)]
 pub struct Lighting {
-    /// Where the sun stands and how much sky there is.
+    /// Direction of the sun, and irradiances of sun and sky.
     pub light: Light,
     /// Response of the camera to the sun.
     pub sun: CameraResponse,
-    /// Response to the sky, scaled to 1 in the sun's reference channel; needed only where the light has a
+    /// Response to the sky, scaled like the sun's response, whose reference channel is 1; used only with a
     /// sky.
     pub sky: CameraResponse,
 }
 
 impl Lighting {
-    /// The lights of the scene: the sun and the sky, as far as there are any, each with the camera's response
-    /// to it.
+    /// The sun and the sky, where present, each with the camera's response to it.
     pub fn sources(&self) -> impl Iterator<Item = (ModeLight, &CameraResponse)> + Clone {
         let sun = (ModeLight::Sun(self.light.panel_irradiance()), &self.sun);
         let sky = (ModeLight::Sky(self.light.sky()), &self.sky);
@@ -41,7 +40,7 @@ pub fn seen_bands<'a>(cameras: impl Iterator<Item = &'a CameraResponse> + Clone)
 
 /// A light on a fold of known response, and how the camera sees it.
 pub struct Lit<'a> {
-    /// Which of the responses.
+    /// Index of the response.
     pub response: usize,
     /// The light.
     pub light: ModeLight,

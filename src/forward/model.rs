@@ -1,9 +1,9 @@
-//! Facet RGB of a surface as a linear combination of a few functions of reflectance.
+//! Facet RGB of a surface as a linear combination of a few functions of its reflectance.
 //!
-//! Every facet's radiance is a sum over the poles of the response; the poles and what the reflectance makes
-//! of them are common to all facets: eqs. (33) to (35) with the poles in place of all eigenvalues. So the
-//! spectrum is integrated once per pole and channel, not once per facet and channel, and only over wavebands
-//! that a sensor sees.
+//! Every facet's radiance is a sum over the poles of the response. The poles and their functions of
+//! reflectance are common to all facets: eqs. (33) to (35) with the poles in place of all eigenvalues. The
+//! spectrum is therefore integrated once per pole and channel rather than per facet and channel, and only
+//! over wavebands that a sensor sees.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,7 +12,7 @@ use super::lighting::seen_bands;
 use super::terms::Terms;
 use crate::camera::CameraResponse;
 
-/// Facet RGB of a surface under known light, for any reflectance of it or of its unknown part.
+/// Facet RGB of a surface under known light, for any reflectance of the surface or of its unknown part.
 #[derive(Clone, Debug)]
 pub struct FacetModel {
     terms: Terms,
@@ -20,7 +20,7 @@ pub struct FacetModel {
     seen_bands: Vec<usize>,
 }
 
-/// One light: how much of each term every facet takes, and how the camera sees it.
+/// One light: the weight of each term in every facet, and the camera's response.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// Facet by term.
@@ -30,7 +30,7 @@ pub struct Source {
 }
 
 impl FacetModel {
-    /// A model whose facets take of the `terms` what each of the `sources`, at least one, says.
+    /// A model with these `terms` and at least one source, which holds their weights in the facets.
     pub(crate) fn of(terms: Terms, sources: Vec<Source>) -> Self {
         let seen_bands = seen_bands(sources.iter().map(|source| &source.camera));
         Self { terms, sources, seen_bands }
@@ -48,16 +48,16 @@ impl FacetModel {
         self.sources[0].camera.bands()
     }
 
-    /// The lights, each with what facets take of the terms.
+    /// The lights, each with the weights of the terms.
     #[must_use]
     pub fn sources(&self) -> &[Source] {
         &self.sources
     }
 
-    /// The same with each of the sources in another amount.
+    /// The same model with every source scaled by its amount.
     ///
     /// # Panics
-    /// If there are not as many amounts as sources.
+    /// If the number of amounts differs from the number of sources.
     #[must_use]
     pub fn in_amounts(&self, amounts: &[f64]) -> Self {
         assert_eq!(amounts.len(), self.sources.len(), "one amount per source");
@@ -66,14 +66,14 @@ impl FacetModel {
         scaled
     }
 
-    /// The same with the camera's response to another light in the place of that to each of the sources.
+    /// The same model with this response to light in place of that of every source.
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
         let source = |source: &Source| Source { facets: source.facets.clone(), camera: camera.clone() };
         Self::of(self.terms.clone(), self.sources.iter().map(source).collect())
     }
 
-    /// The terms for a spectrum: waveband by term. Never `1/r`: black is a legal reflectance.
+    /// The terms for a spectrum: waveband by term. They contain no `1/r`, as black is a valid reflectance.
     #[must_use]
     pub fn terms_of(&self, reflectance: &[f64]) -> DMatrix<f64> {
         let [terms] = self.in_all_bands(reflectance, |family, r, g| [family.value(r, g)]);
@@ -86,15 +86,16 @@ impl FacetModel {
         self.in_all_bands(reflectance, Family::at)
     }
 
-    /// Poles with their signs, one per term: light that the surface sends out itself makes `1 + pt` of a term
-    /// `t = r/(1 − rp)`, as what it reflects of direct light makes of r. None where parts of the surface are
+    /// Signed poles, one per term. Bounces multiply light emitted by the surface by `1 + pt`, where
+    /// `t = r/(1 − rp)` is the term of reflected light at the pole p. `None` if parts of the surface are
     /// known.
     #[must_use]
     pub fn signed_poles(&self) -> Option<Vec<f64>> {
         self.terms.signed_poles()
     }
 
-    /// RGB of every facet at exposure 1: facet by channel; of a fold in the order panel, row, column.
+    /// RGB of every facet at exposure 1: facet by channel. Facets of a fold are ordered by panel, row,
+    /// column.
     ///
     /// # Source
     /// Deeb et al., eq. (24), for the uniform sheet eq. (33).
@@ -103,20 +104,19 @@ impl FacetModel {
         self.rgb_of(reflectance, None, Family::value)
     }
 
-    /// What light adds to [`FacetModel::facet_rgb`] that has been reflected from panel to panel more than
-    /// `bounces` times.
+    /// The part of [`FacetModel::facet_rgb`] due to light reflected from panel to panel more than `bounces`
+    /// times.
     ///
     /// # Source
     /// Deeb et al., eqs. (5) to (7) and (11) to (14): light after b bounces is a mode's share times its pole
-    /// to the b, so that the sum over b > `bounces` has a closed form.
+    /// to the power b, so that the sum over b > `bounces` has a closed form.
     #[must_use]
     pub fn facet_rgb_after(&self, bounces: u32, reflectance: &[f64]) -> DMatrix<f64> {
         self.rgb_of(reflectance, None, |family, r, g| family.value_after(bounces, r, g))
     }
 
-    /// What the mean of `facets` takes of each waveband of the reflectance, where light does not bounce:
-    /// channel by waveband. None for a concave sheet, whose RGB is not a linear function of reflectance, or
-    /// beside what is known.
+    /// The linear map from reflectance to the mean RGB of `facets`, channel by waveband, if light does not
+    /// bounce. `None` for a concave sheet, whose RGB is not linear in its reflectance, or if parts are known.
     #[must_use]
     pub fn without_bounces(&self, facets: &[usize]) -> Option<DMatrix<f64>> {
         if !self.terms.is_flat() {
@@ -140,13 +140,13 @@ impl FacetModel {
         self.terms.in_bands(&(0..reflectance.len()).collect::<Vec<_>>(), reflectance, of)
     }
 
-    /// Whether the surface is a sheet with nothing beside it.
+    /// True if the surface consists of one unknown sheet alone.
     pub(super) fn is_of_one_sheet(&self) -> bool {
         self.terms.signed_poles().is_some()
     }
 
-    /// RGB of every facet of one sheet, `sent` being what a mode sends out per waveband in parts of the
-    /// light, by the number of the source and the mode's pole.
+    /// RGB of every facet of one sheet. `sent` gives the light leaving a mode per waveband, relative to the
+    /// light, for the index of a source and the mode's pole.
     pub(super) fn rgb_of_modes(&self, sent: impl Fn(usize, f64) -> Vec<f64>) -> DMatrix<f64> {
         let poles = self.terms.signed_poles().unwrap_or_default();
         let of_source = |(n, Source { facets, camera }): (usize, &Source)| {
@@ -154,7 +154,7 @@ impl FacetModel {
                 DMatrix::from_fn(self.bands(), camera.channels(), |band, c| camera.channel(c)[band]);
             let mut rgb = DMatrix::zeros(facets.nrows(), camera.channels());
             for (column, pole) in facets.column_iter().zip(&poles) {
-                // one source's response has no part in the modes of another's
+                // the response to one source has no part in the modes of another
                 if column.iter().any(|residue| *residue != 0.0) {
                     rgb += column * (weights.tr_mul(&DVector::from(sent(n, *pole)))).transpose();
                 }
@@ -164,8 +164,8 @@ impl FacetModel {
         self.sources.iter().enumerate().map(of_source).sum()
     }
 
-    /// RGB of every facet, `of` being what a family makes of reflectance and pole, times `amounts`, one per
-    /// waveband, if there are any.
+    /// RGB of every facet. `of` evaluates a family at a reflectance and a pole; `amounts`, if given, multiply
+    /// the result, one per waveband.
     pub(super) fn rgb_of(
         &self,
         reflectance: &[f64],

@@ -1,4 +1,4 @@
-//! Seeded noise of a camera.
+//! Seeded camera noise.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -14,13 +14,13 @@ pub struct Noise {
 }
 
 impl Noise {
-    /// Standard deviation at a signal, both relative to white.
+    /// Standard deviation at `signal`, both relative to white.
     #[must_use]
     pub fn sd_at(&self, signal: f64) -> f64 {
         (self.sd * self.sd + self.photon * self.photon * signal.max(0.0)).sqrt()
     }
 
-    /// Whether there is none.
+    /// True if there is no noise.
     #[must_use]
     pub fn is_none(&self) -> bool {
         self.sd <= 0.0 && self.photon <= 0.0

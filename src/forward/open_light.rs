@@ -1,13 +1,13 @@
-//! What a scene's light does to a flat sheet that nothing hides: a chart, or a white card.
+//! The light of a scene on an unobstructed flat sheet: a chart, or a white card.
 
 use super::lighting::{Lighting, seen_bands};
 use crate::camera::CameraResponse;
 use crate::geometry::LightSource;
 
-/// The lights of a scene as the camera responds to them, without what they fall on.
+/// The lights of a scene as the camera responds to them, independent of the surface they fall on.
 #[derive(Clone, Debug)]
 pub struct OpenLight {
-    /// The sun, or whatever stands in its place, is the first.
+    /// The first is the sun or its substitute.
     sources: Vec<OpenSource>,
 }
 
@@ -19,7 +19,7 @@ struct OpenSource {
 }
 
 impl OpenLight {
-    /// Of lights around a surface, each with the camera's response to it; at least one.
+    /// From the lights around a surface, at least one, each with the camera's response to it.
     #[must_use]
     pub fn new(sources: &[(LightSource, CameraResponse)]) -> Self {
         let open = |(source, camera): &(LightSource, CameraResponse)| OpenSource {
@@ -30,8 +30,8 @@ impl OpenLight {
         Self { sources: sources.iter().map(open).collect() }
     }
 
-    /// RGB at exposure 1 of a flat sheet of this `reflectance`, one number per waveband, outside the scene:
-    /// the sun meets it at an angle of cosine `cos`, nothing hides the sky, and other lamps do not reach it.
+    /// RGB at exposure 1 of a flat sheet outside the scene with this `reflectance` per waveband. `cos` is the
+    /// cosine of the sun's incidence; the sky is unobstructed, and other lamps do not reach the sheet.
     ///
     /// # Example
     /// ```
@@ -62,7 +62,7 @@ impl OpenLight {
         rgb
     }
 
-    /// The camera's response to the sun, or to whatever stands in its place.
+    /// The camera's response to the sun or its substitute.
     #[must_use]
     pub fn sun(&self) -> &CameraResponse {
         &self.sources[0].camera

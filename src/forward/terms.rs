@@ -1,4 +1,5 @@
-//! The terms of the facet model, functions of reflectance at a pole, and the wavebands in which they count.
+//! The terms of the facet model, functions of reflectance at a pole, and the wavebands where they are not
+//! zero.
 
 use nalgebra::DMatrix;
 
@@ -7,26 +8,26 @@ use super::families::{EVEN, Family, ODD, WITH_KNOWN, families_with_card};
 /// A card of known reflectance in the place of one panel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Card {
-    /// Its panel, 0 or 1; the other is the sheet.
+    /// Its panel, 0 or 1; the other one is the sheet.
     pub panel: usize,
     /// Reflectance per waveband.
     pub reflectance: Vec<f64>,
 }
 
-/// What the facets' radiances are combined of.
+/// The functions whose linear combinations are the facets' radiances.
 #[derive(Clone, Debug)]
 pub enum Terms {
-    /// A surface of one reflectance: `r/(1 − rg)` and, where a fold is lit unevenly (`odd`), then
-    /// `r/(1 + rg)`.
+    /// A surface of one reflectance: `r/(1 − rg)`, followed by `r/(1 + rg)` if a fold is lit unevenly
+    /// (`odd`).
     One { poles: Vec<f64>, odd: bool },
-    /// A fold of a sheet and a card c: `r/d`, `rcg/d`, `c/d`, `d = 1 − rcg²`.
+    /// A fold of a sheet and a card of reflectance c: `r/d`, `rcg/d`, `c/d` with `d = 1 − rcg²`.
     Card { poles: Vec<f64>, card: Card },
-    /// A surface with parts of known reflectance has other poles in every waveband: 1, then `r/(1 − rg)`, in
-    /// that waveband alone.
+    /// A surface with parts of known reflectance has different poles in every waveband: 1, then `r/(1 − rg)`,
+    /// in that waveband alone.
     WithKnown(Vec<Vec<f64>>),
 }
 
-/// Terms that are one function of reflectance, each at a pole of its own, from row `first` on.
+/// Terms of the same family, each with its own pole, starting at row `first`.
 pub struct Block<'a> {
     pub first: usize,
     pub family: Family,
@@ -43,20 +44,20 @@ impl Terms {
         }
     }
 
-    /// The poles of the terms of a surface of one reflectance, those that are subtracted as negative ones;
-    /// none of any other.
+    /// Poles of the terms of a surface of one reflectance, negated where they are subtracted; `None` for
+    /// other surfaces.
     pub fn signed_poles(&self) -> Option<Vec<f64>> {
         let Self::One { poles, odd } = self else { return None };
         let subtracted = poles.iter().filter(|_| *odd).map(|pole| -pole);
         Some(poles.iter().copied().chain(subtracted).collect())
     }
 
-    /// Whether light that leaves the surface never comes back, and no part of it is known.
+    /// True if no light returns to the surface and no part of it is known.
     pub fn is_flat(&self) -> bool {
         matches!(self, Self::One { poles, .. } if poles.iter().all(|pole| pole.abs() <= 0.0))
     }
 
-    /// The first term of a waveband.
+    /// Index of the first term of a waveband.
     pub fn first(&self, band: usize) -> usize {
         match self {
             Self::WithKnown(bands) => bands[..band].iter().map(|poles| 1 + poles.len()).sum(),
@@ -64,7 +65,7 @@ impl Terms {
         }
     }
 
-    /// The terms that count in a waveband; others are zero there.
+    /// The terms that are not zero in a waveband.
     fn blocks(&self, band: usize) -> impl Iterator<Item = Block<'_>> {
         let blocks = match self {
             Self::One { poles, odd } => {
@@ -83,8 +84,8 @@ impl Terms {
         blocks.into_iter().flatten()
     }
 
-    /// What `of` makes of every family, pole and waveband of `bands`, `reflectance` being those of these:
-    /// waveband by term.
+    /// Evaluates `of` for every family and pole in each of `bands`, at the `reflectance` in each: waveband by
+    /// term.
     pub fn in_bands<const N: usize>(
         &self,
         bands: &[usize],
@@ -92,7 +93,7 @@ impl Terms {
         of: impl Fn(&Family, f64, f64) -> [f64; N],
     ) -> [DMatrix<f64>; N] {
         let mut all = [(); N].map(|()| DMatrix::zeros(bands.len(), self.count()));
-        // Wavebands of the same families and poles are one run, which the processor takes several of at once.
+        // Wavebands with the same families and poles form one run, which the compiler can vectorise.
         let run = if matches!(self, Self::One { .. }) { bands.len().max(1) } else { 1 };
         for (n, (bands, reflectance)) in bands.chunks(run).zip(reflectance.chunks(run)).enumerate() {
             for Block { first, family, poles } in self.blocks(bands[0]) {

@@ -1,19 +1,19 @@
-//! Numbers of facets: what each has in each channel, or how far that may be off.
+//! Values of facets in each channel, or their standard deviations.
 
 use nalgebra::DMatrix;
 use ndarray::{Array2, ArrayView1, Axis};
 
-/// Facet by channel, those of several pictures beside each other; some facets may not have been measured.
+/// Facet by channel, with the channels of several pictures side by side. Some facets may be unmeasured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FacetValues {
-    /// 0 where nothing was measured.
+    /// 0 where unmeasured.
     values: Array2<f64>,
     is_measured: Vec<bool>,
 }
 
 impl FacetValues {
-    /// From a list of facets, `None` for one that was not measured; none if facets have different numbers of
-    /// channels.
+    /// From a list of facets, `None` for one that was not measured. Returns `None` if facets differ in their
+    /// number of channels.
     ///
     /// # Example
     /// ```
@@ -50,19 +50,19 @@ impl FacetValues {
         self.is_measured.len()
     }
 
-    /// Whether there are no facets.
+    /// True if there are no facets.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.is_measured.is_empty()
     }
 
-    /// Number of channels, in all pictures together; 0 if nothing was measured.
+    /// Number of channels in all pictures together; 0 if nothing was measured.
     #[must_use]
     pub fn channels(&self) -> usize {
         self.values.ncols()
     }
 
-    /// The values of a facet; none if it was not measured.
+    /// The values of a facet; `None` if it was not measured.
     ///
     /// # Panics
     /// If there is no such facet.
@@ -71,7 +71,7 @@ impl FacetValues {
         self.is_measured[facet].then(|| self.values.row(facet))
     }
 
-    /// One value; none if it was not measured, or if there is no such channel.
+    /// One value; `None` if it was not measured or the channel does not exist.
     ///
     /// # Panics
     /// If there is no such facet.
@@ -80,7 +80,7 @@ impl FacetValues {
         self.facet(facet)?.get(channel).copied()
     }
 
-    /// All facets, none for one that was not measured.
+    /// All facets, with `None` for those not measured.
     pub fn facets(&self) -> impl Iterator<Item = Option<ArrayView1<'_, f64>>> {
         self.values
             .axis_iter(Axis(0))
@@ -88,7 +88,7 @@ impl FacetValues {
             .map(|(values, measured)| measured.then_some(values))
     }
 
-    /// The same as if some facets had not been measured.
+    /// The same values with these facets marked as unmeasured.
     #[must_use]
     pub fn without(&self, facets: impl Iterator<Item = usize>) -> Self {
         let mut rest = self.clone();
@@ -96,18 +96,18 @@ impl FacetValues {
         rest
     }
 
-    /// All values that were measured.
+    /// All measured values.
     pub fn measured(&self) -> impl Iterator<Item = f64> {
         self.facets().flatten().flat_map(|values| values.into_iter().copied())
     }
 
-    /// The greatest value that was measured, 0 if none is positive.
+    /// The largest measured value; 0 if none is positive.
     #[must_use]
     pub fn greatest(&self) -> f64 {
         self.measured().fold(0.0, f64::max)
     }
 
-    /// Something of each value that was measured, by facet and channel.
+    /// Maps each measured value, given its facet and channel.
     #[must_use]
     pub fn map(&self, of: impl Fn([usize; 2], f64) -> f64) -> Self {
         let mut mapped = self.clone();
@@ -120,7 +120,7 @@ impl FacetValues {
     }
 }
 
-/// All measured, facet by channel.
+/// All facets measured, facet by channel.
 impl From<&DMatrix<f64>> for FacetValues {
     fn from(values: &DMatrix<f64>) -> Self {
         let is_measured = vec![true; values.nrows()];

@@ -4,9 +4,9 @@ use std::ops::RangeInclusive;
 
 use crate::error::{Error, Result};
 
-/// Most facets on one panel.
+/// Maximum number of facets on one panel.
 const FACETS_MAX: usize = 512 * 512;
-/// Most distinct kernel entries: those of 512 x 512 facets fill half a gigabyte.
+/// Maximum number of distinct kernel entries: those of 512 x 512 facets fill half a gigabyte.
 const ENTRIES_MAX: f64 = 0.5 * 512.0 * 513.0 * 512.0;
 
 /// How one panel is divided into facets, where colour is measured.
@@ -25,13 +25,13 @@ impl FacetGrid {
         self.rows * self.cols
     }
 
-    /// Row and column of a facet, panels being counted row by row from the crease.
+    /// Row and column of a facet. Facets are numbered row by row from the crease.
     #[must_use]
     pub fn place(&self, facet: usize) -> [usize; 2] {
         [facet / self.cols, facet % self.cols]
     }
 
-    /// Whether the grid has no facet, which [`Fold::new`] refuses.
+    /// True if the grid has no facets, which [`Fold::new`] refuses.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -44,12 +44,13 @@ pub enum Spacing {
     /// Rows of equal depth.
     #[default]
     Uniform,
-    /// Row n ends at (n/rows)² of the depth: narrow where interreflection varies, at the crease.
+    /// Row n ends at (n/rows)² of the depth: rows are narrow at the crease, where interreflection varies
+    /// most.
     Graded,
 }
 
 impl Spacing {
-    /// Where rows begin and end, from 0 (the crease) to 1 (the outer edge): `rows + 1` numbers.
+    /// Row boundaries from 0 (the crease) to 1 (the outer edge): `rows + 1` numbers.
     ///
     /// # Example
     /// ```
@@ -66,10 +67,9 @@ impl Spacing {
     }
 }
 
-/// A fold: two rectangular panels that share the crease, opened by an angle, each divided into a grid of
-/// facets.
+/// Two rectangular panels that share a crease, opened by an angle, each divided into a grid of facets.
 ///
-/// Only the ratio of the panels' sides matters: interreflection is free of scale.
+/// Only the ratios of the sides matter: interreflection does not depend on scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fold {
     angle_deg: f64,
@@ -80,12 +80,12 @@ pub struct Fold {
 }
 
 impl Fold {
-    /// A fold opened by `angle_deg` in (0, 180], both panels `width` along the crease by `depth` away from
-    /// it, any unit, with facets of equal size.
+    /// A fold opened by `angle_deg` in (0, 180]. Both panels measure `width` along the crease by `depth` away
+    /// from it, in any unit, and have facets of equal size.
     ///
     /// # Errors
-    /// Angle outside the range, sides not positive, beyond 1e±100 or further apart than 1 : 1000, no facet,
-    /// or more than 262144 a panel.
+    /// An angle outside the range; sides that are not positive, outside 1e±100 or more than 1 : 1000 apart;
+    /// no facets, more than 262144 per panel, or a kernel of more than 0.5 GB.
     ///
     /// # Example
     /// ```
@@ -117,7 +117,7 @@ impl Fold {
     /// The same fold with another depth of panel 1, in the unit of the other sides.
     ///
     /// # Errors
-    /// A depth that is not positive or further than 1 : 1000 from the width or the other panel's depth.
+    /// A depth that is not positive, or more than 1 : 1000 from the width or the other panel's depth.
     pub fn with_panel1_depth(self, depth: f64) -> Result<Self> {
         if !(possible(self.width, depth) && possible(self.depths[0], depth)) {
             return Err(Error::usage(
@@ -138,16 +138,16 @@ impl Fold {
         Ok(Self { depths: self.depths, spacing: self.spacing, ..fold })
     }
 
-    /// The same fold with its facet rows spaced otherwise.
+    /// The same fold with different spacing of the facet rows.
     #[must_use]
     pub fn with_spacing(self, spacing: Spacing) -> Self {
         Self { spacing, ..self }
     }
 
-    /// The same fold with other facets.
+    /// The same fold with another facet grid.
     ///
     /// # Errors
-    /// No facet, or more than 262144 a panel.
+    /// No facets, more than 262144 per panel, or a kernel of more than 0.5 GB.
     pub fn with_facets(self, facets: FacetGrid) -> Result<Self> {
         check_facets(facets)?;
         Ok(Self { facets, ..self })
@@ -165,13 +165,13 @@ impl Fold {
         self.angle_deg.to_radians()
     }
 
-    /// Whether the fold is open to 180°: its panels do not see each other.
+    /// True if the fold is open to 180°, so that its panels do not see each other.
     #[must_use]
     pub fn is_flat(&self) -> bool {
         (180.0 - self.angle_deg).abs() < 1e-13
     }
 
-    /// Length of the crease, in the unit the fold was given in.
+    /// Length of the crease, in the unit of [`Fold::new`].
     #[must_use]
     pub fn width(&self) -> f64 {
         self.width
@@ -183,7 +183,7 @@ impl Fold {
         self.depths
     }
 
-    /// Whether each panel is the other's mirror image.
+    /// True if the panels are mirror images of each other.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {
         self.depths[0].total_cmp(&self.depths[1]).is_eq()
@@ -201,8 +201,8 @@ impl Fold {
         self.spacing
     }
 
-    /// Distances from the crease at which the facet rows of each panel begin and end: `rows + 1` numbers from
-    /// 0.
+    /// Distances from the crease to the boundaries of the facet rows of each panel: `rows + 1` numbers,
+    /// starting at 0.
     #[must_use]
     pub fn row_edges(&self) -> [Vec<f64>; 2] {
         let edges = self.spacing.edges(self.facets.rows);
@@ -210,7 +210,7 @@ impl Fold {
     }
 }
 
-/// Sides of panels, whatever their unit: areas of so large and so small ones are numbers like any others.
+/// Allowed sides of panels, in any unit: their areas neither overflow nor underflow.
 const SIDES: RangeInclusive<f64> = 1e-100..=1e100;
 
 fn possible(a: f64, b: f64) -> bool {

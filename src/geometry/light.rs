@@ -5,10 +5,10 @@ use nalgebra::Vector3;
 use crate::error::{Error, Result};
 use crate::geometry::Fold;
 
-/// The sun, square to the crease, and a uniform sky.
+/// A sun and a uniform sky.
 ///
-/// A plane that faces the sun receives irradiance 1 from it; the same plane, unobstructed, receives `sky`
-/// from the sky. Where there is no sun, it is 1 that the sky gives an open plane.
+/// A plane facing the sun receives irradiance 1 from it and, if unobstructed, `sky` from the sky. Without a
+/// sun, an unobstructed plane receives 1 from the sky.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     tilt_deg: f64,
@@ -19,12 +19,13 @@ pub struct Light {
 }
 
 impl Light {
-    /// Light on `fold` from `tilt_deg` off its bisecting plane (positive: the sun leans over panel 1 and
-    /// lights panel 0 more), slanted by `slant_deg` along the crease, with a uniform sky of `sky` times the
-    /// sun's irradiance; the sky alone if that is infinite.
+    /// Light on `fold`: a sun tilted by `tilt_deg` off the bisecting plane (positive: it leans over panel 1
+    /// and lights panel 0 more) and slanted by `slant_deg` along the crease, and a uniform sky of `sky` times
+    /// its irradiance. If `sky` is infinite there is no sun.
     ///
     /// # Errors
-    /// A tilt that leaves a panel unlit, a slant of 90° or more, or a negative sky.
+    /// A tilt that leaves a panel unlit, a slant of 90° or more, or a sky that is negative or above 1e6 but
+    /// finite.
     ///
     /// # Example
     /// ```
@@ -36,7 +37,7 @@ impl Light {
     /// ```
     pub fn new(fold: &Fold, tilt_deg: f64, slant_deg: f64, sky: f64) -> Result<Self> {
         let half = fold.angle_deg() / 2.0;
-        // Beyond half the opening one panel shades the other; at a slant no panel is shaded as long as both
+        // Beyond half the opening angle one panel shades the other. A slant shades neither as long as both
         // face the sun.
         if tilt_deg.is_nan() || tilt_deg.abs() >= half {
             return Err(Error::usage(
@@ -86,30 +87,28 @@ impl Light {
         Vector3::new(tilt_sin * slant_cos, slant_sin, tilt_cos * slant_cos)
     }
 
-    /// What the panels of `fold` receive alike from the sun on the bisecting plane, and what panel 0 receives
-    /// more and panel 1 less for each unit of the sine of its tilt.
-    ///
-    /// The irradiance at a tilt is `even·cos(tilt) ± odd·sin(tilt)`.
+    /// Coefficients `[even, odd]` of the sun's irradiance on the panels of `fold`: at a tilt it is
+    /// `even·cos(tilt) ± odd·sin(tilt)`, more on panel 0 and less on panel 1.
     #[must_use]
     pub fn even_and_odd(&self, fold: &Fold) -> [f64; 2] {
         let (sin, cos) = (fold.angle_rad() / 2.0).sin_cos();
         [sin, cos].map(|share| self.slant_deg.to_radians().cos() * share)
     }
 
-    /// Irradiance of a plane that faces the sun by it: 1, or 0 where there is none.
+    /// Irradiance from the sun on a plane facing it: 1, or 0 without a sun.
     #[must_use]
     pub fn sun(&self) -> f64 {
         self.sun
     }
 
-    /// Irradiance of a uniform sky on an unobstructed plane facing the sun, relative to the sun's if there is
-    /// one.
+    /// Irradiance from the uniform sky on an unobstructed plane facing the sun, relative to the sun's if
+    /// there is one.
     #[must_use]
     pub fn sky(&self) -> f64 {
         self.sky
     }
 
-    /// Direct irradiance of the sun on each panel: the cosine of its incidence.
+    /// Direct irradiance from the sun on each panel: the cosine of incidence.
     #[must_use]
     pub fn panel_irradiance(&self) -> [f64; 2] {
         self.panel_irradiance

@@ -1,6 +1,6 @@
 //! A fold and the light that falls on it; nothing here knows about reflectance or colour.
 //!
-//! A [`Fold`] is two [`Panel`]s, by which photographs are measured. What is no fold is in
+//! A [`Fold`] has two [`Panel`]s, in which photographs are measured. Other shapes are in
 //! [`surfaces`](crate::surfaces).
 
 pub mod fold;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{Fold, Vec3};
 
-/// Places that differ by less than this part of a panel count as one.
+/// Points closer than this fraction of a panel count as one.
 const SAME: f64 = 1e-6;
 
 /// A flat quadrilateral divided into rows and columns of facets, row by row.
@@ -12,17 +12,17 @@ const SAME: f64 = 1e-6;
 pub struct Panel {
     /// Its corners: crease end 0, crease end 1, outer end 1, outer end 0.
     pub corners: [Vec3; 4],
-    /// Where rows begin and end, from 0 at the crease to 1.
+    /// Row boundaries, from 0 at the crease to 1.
     pub row_edges: Vec<f64>,
-    /// The same of columns, along the crease.
+    /// Column boundaries along the crease, from 0 to 1.
     pub col_edges: Vec<f64>,
-    /// Which facets of the scene it has.
+    /// Range of its facets among those of the scene.
     pub facets: Range<usize>,
 }
 
 impl Fold {
-    /// Both panels in space: the crease along y with its middle at the origin, the bisecting plane x = 0, the
-    /// fold open towards +z, panel 0 on the side of negative x.
+    /// Both panels in space. The crease lies on the y axis with its middle at the origin, the bisecting plane
+    /// is x = 0, the fold opens towards +z, and panel 0 has negative x.
     #[must_use]
     pub fn panels(&self) -> [Panel; 2] {
         let (sin, cos) = (self.angle_rad() / 2.0).sin_cos();
@@ -42,10 +42,10 @@ impl Fold {
 }
 
 impl Panel {
-    /// The panel that these facets make up row by row, from number `first` on, if they do.
+    /// The panel that these facets form row by row, numbered from `first`; `None` if they do not form one.
     ///
-    /// Rows count in the order of the facets, and columns too. A strip of facets is a row if neighbours share
-    /// the side that follows the first one's second corner, else a column; that is how accordions have them.
+    /// Rows and columns follow the order of the facets. A single strip is a row if neighbours share the side
+    /// between the second and third corner of the first facet, else a column, as in accordions.
     ///
     /// # Example
     /// ```
@@ -90,7 +90,7 @@ impl Panel {
     }
 }
 
-/// Facets in a row: as many as are side by side from the first on.
+/// Number of facets in a row: those side by side, starting with the first.
 fn columns(quads: &[[Vec3; 4]]) -> Option<usize> {
     let first = quads.first()?;
     let size = (first[2] - first[0]).norm();
@@ -104,8 +104,8 @@ fn columns(quads: &[[Vec3; 4]]) -> Option<usize> {
     quads.len().is_multiple_of(cols).then_some(cols)
 }
 
-/// From the first facet to the next in its row and to the first of the next row; where there is none, along a
-/// side of its own.
+/// Vectors from the first facet to the next in its row and to the first of the next row; where there is none,
+/// along one of its own sides.
 fn directions(quads: &[[Vec3; 4]], cols: usize) -> Option<[Vec3; 2]> {
     let middle = |quad: &[Vec3; 4]| quad.iter().sum::<Vec3>() / 4.0;
     let to = |facet: usize| quads.get(facet).map(|quad| middle(quad) - middle(&quads[0]));
@@ -122,22 +122,22 @@ fn directions(quads: &[[Vec3; 4]], cols: usize) -> Option<[Vec3; 2]> {
     })
 }
 
-/// The corner of a facet that lies furthest along both directions, or against them where `ends` is -1.
+/// The corner of a facet furthest along each direction, or against it where `ends` is -1.
 fn corner(quad: &[Vec3; 4], [along, out]: [Vec3; 2], ends: [f64; 2]) -> Vec3 {
     let [u, v] = dual(along, out).unwrap_or([along, out]);
     let reach = |point: &&Vec3| ends[0] * u.dot(point) + ends[1] * v.dot(point);
     quad.iter().max_by(|a, b| reach(a).total_cmp(&reach(b))).copied().unwrap_or_default()
 }
 
-/// Directions whose products with a point of the plane are its coordinates along `a` and `b`; none if these
-/// are parallel.
+/// Vectors whose dot products with a point of the plane are its coordinates along `a` and `b`; `None` if
+/// these are parallel.
 fn dual(a: Vec3, b: Vec3) -> Option<[Vec3; 2]> {
     let normal = a.cross(&b);
     let area = normal.norm_squared();
     (area > 0.0).then(|| [b.cross(&normal) / area, normal.cross(&a) / area])
 }
 
-/// The corners of panels, each place once: for every panel the numbers of its four.
+/// For every panel the numbers of its four corners, corners at the same place sharing a number.
 ///
 /// # Example
 /// ```
@@ -165,7 +165,7 @@ mod tests {
     use super::*;
     use crate::geometry::{FacetGrid, Spacing};
 
-    /// The facets of a panel, their corners from any one on in either sense.
+    /// The facets of a panel, each with its corners starting anywhere and in either orientation.
     fn facets(panel: &Panel, turn: usize, mirrored: bool) -> Vec<[Vec3; 4]> {
         let [p, q, _, s] = panel.corners;
         let facet = |rows: &[f64], cols: &[f64]| {

@@ -1,75 +1,73 @@
-//! Sources of light around any surface.
+//! Light sources around any surface.
 
 use nalgebra::Vector3;
 
 use super::StandardSky;
 use crate::error::{Error, Result};
 
-/// Brightest and darkest source, relative to the sun or whatever stands in its place: sums of such numbers
-/// keep their digits.
+/// Allowed irradiances, relative to the sun or whatever replaces it: sums of such numbers stay accurate.
 const IRRADIANCES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
-/// Lamps are nearer than this: squares of such distances are numbers.
+/// Upper bound on the distance of a lamp: its square does not overflow.
 const FURTHEST: f64 = 1e30;
-/// A lamp that faces this much along the y axis, as a cosine, does not have its width there.
+/// A lamp facing this nearly along the y axis (cosine) has its width along x instead.
 const ALONG: f64 = 0.999;
-/// How far off corners of a rectangle may be, relative to its sides: rounding in a file.
+/// Allowed error of a rectangle's corners relative to its sides: rounding in files.
 const SKEW: f64 = 1e-6;
 
-/// One source of light; irradiances are relative to each other, those of the first source commonly 1.
+/// A light source. Irradiances are relative to each other; that of the first source is usually 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightSource {
     /// Parallel light, such as the sun's.
     Directional {
-        /// Unit vector to the source.
+        /// Unit vector towards the source.
         towards: Vector3<f64>,
-        /// On a plane that faces it.
+        /// Irradiance on a plane facing the source.
         irradiance: f64,
     },
-    /// A lamp, small beside its distance, alike in all directions.
+    /// A lamp that is small compared with its distance and radiates equally in all directions.
     Point {
-        /// Where it is, in the unit of the surface.
+        /// Position, in the unit of the surface.
         at: Vector3<f64>,
-        /// On a plane that faces it at `distance`.
+        /// Irradiance on a plane facing the lamp at `distance`.
         irradiance: f64,
         /// Positive, in the unit of the surface.
         distance: f64,
     },
-    /// A lamp or a window of some size: flat, alike bright all over and in all directions, on the side to
-    /// which it faces.
+    /// A lamp or window of finite size: flat, of uniform radiance over its area and in all directions, on the
+    /// side that it faces.
     Area {
-        /// Corners of a rectangle, counter-clockwise seen from where it shines to, in the unit of the
-        /// surface.
+        /// Corners of a rectangle, counter-clockwise as seen from the lit side, in the unit of the surface.
         corners: [Vector3<f64>; 4],
-        /// On a plane that faces its middle squarely at `distance` before it.
+        /// Irradiance on a plane that faces its middle squarely at `distance`.
         irradiance: f64,
         /// Positive, in the unit of the surface.
         distance: f64,
     },
-    /// Light from everywhere alike, from below as well.
+    /// Uniform light from all directions, including from below.
     UniformSky {
-        /// On a plane that nothing hides.
+        /// Irradiance on an unobstructed plane.
         irradiance: f64,
     },
-    /// The sky of a dull day, brightest in the zenith, dark below the horizon.
+    /// A CIE overcast sky, brightest at the zenith, dark below the horizon.
     OvercastSky {
-        /// Unit vector to the zenith.
+        /// Unit vector towards the zenith.
         zenith: Vector3<f64>,
-        /// On a horizontal plane that nothing hides.
+        /// Irradiance on an unobstructed horizontal plane.
         irradiance: f64,
     },
-    /// One of the CIE's standard skies, dark below the horizon.
+    /// A CIE standard sky, dark below the horizon.
     StandardSky {
-        /// Which.
+        /// Its type.
         sky: StandardSky,
-        /// Unit vector to the zenith.
+        /// Unit vector towards the zenith.
         zenith: Vector3<f64>,
-        /// Unit vector to the sun, which may be hidden.
+        /// Unit vector towards the sun, which may be hidden.
         sun: Vector3<f64>,
-        /// On a horizontal plane that nothing hides.
+        /// Irradiance on an unobstructed horizontal plane.
         irradiance: f64,
     },
-    /// A light of which nothing is known but what it gives to every facet.
+    /// A light known only by the irradiance of every facet.
     PerFacet,
 }
 
@@ -77,7 +75,8 @@ impl LightSource {
     /// Parallel light from the direction `towards`, of any length.
     ///
     /// # Errors
-    /// [`Error::Field`] as for all sources: if a coordinate or an irradiance is no number, or out of range.
+    /// [`Error::Field`], as for all sources, if a coordinate or an irradiance is not a number or out of
+    /// range.
     ///
     /// # Example
     /// ```
@@ -93,7 +92,7 @@ impl LightSource {
         Ok(Self::Directional { towards: direction(towards)?, irradiance: possible(irradiance)? })
     }
 
-    /// A lamp `at` a place that gives `irradiance` to a plane facing it at `distance`.
+    /// A lamp `at` a position, giving `irradiance` to a plane that faces it at `distance`.
     ///
     /// # Errors
     /// As [`LightSource::directional`].
@@ -102,8 +101,8 @@ impl LightSource {
         Ok(Self::Point { at: at.into(), irradiance: possible(irradiance)?, distance })
     }
 
-    /// A rectangle with its middle `at` a place, turned `towards` another, `size` along the y axis, or as
-    /// nearly as it can be, and across it; it gives `irradiance` to a plane there that faces it.
+    /// A rectangle centred `at` a position and facing `towards` another. `size` is its length along the y
+    /// axis (or as nearly as possible) and across it; it gives `irradiance` to a plane there that faces it.
     ///
     /// # Errors
     /// As [`LightSource::directional`].
@@ -137,7 +136,7 @@ impl LightSource {
         Self::rectangle(corners, irradiance, distance)
     }
 
-    /// The same by its corners.
+    /// A rectangle given by its corners.
     ///
     /// # Errors
     /// As [`LightSource::directional`].
@@ -157,7 +156,7 @@ impl LightSource {
         Ok(Self::Area { corners, irradiance: possible(irradiance)?, distance })
     }
 
-    /// A sky alike in all directions.
+    /// A sky of equal radiance in all directions.
     ///
     /// # Errors
     /// As [`LightSource::directional`].
@@ -165,7 +164,7 @@ impl LightSource {
         Ok(Self::UniformSky { irradiance: possible(irradiance)? })
     }
 
-    /// The sky of a dull day: `L(γ) = (1 + 2 sin γ)/3` of the zenith's radiance at the elevation γ.
+    /// A CIE overcast sky: at elevation γ its radiance is `L(γ) = (1 + 2 sin γ)/3` of the zenith's.
     ///
     /// # Source
     /// CIE S 011/E:2003, *Spatial Distribution of Daylight*, overcast sky; Moon and Spencer, 1942.
@@ -176,10 +175,10 @@ impl LightSource {
         Ok(Self::OvercastSky { zenith: direction(zenith)?, irradiance: possible(irradiance)? })
     }
 
-    /// One of the CIE's standard skies, the sun being where `sun` points.
+    /// A CIE standard sky with the sun in the direction `sun`.
     ///
     /// # Errors
-    /// As [`LightSource::directional`]; a sun that is not above the horizon.
+    /// As [`LightSource::directional`], and if the sun is not above the horizon.
     pub fn standard_sky(sky: StandardSky, zenith: [f64; 3], sun: [f64; 3], irradiance: f64) -> Result<Self> {
         let (zenith, sun) = (direction(zenith)?, direction(sun)?);
         if zenith.dot(&sun) <= 0.0 {
@@ -191,7 +190,7 @@ impl LightSource {
         Ok(Self::StandardSky { sky, zenith, sun, irradiance: possible(irradiance)? })
     }
 
-    /// Whether it surrounds the surface.
+    /// True for a source that surrounds the surface.
     #[must_use]
     pub fn is_sky(&self) -> bool {
         match self {
@@ -200,7 +199,7 @@ impl LightSource {
         }
     }
 
-    /// Irradiance by which it is compared with others: on a plane facing it, of a sky on an open one.
+    /// Irradiance by which sources are compared: on a plane facing the source, or unobstructed under a sky.
     #[must_use]
     pub fn irradiance(&self) -> f64 {
         match self {

@@ -1,4 +1,4 @@
-//! Standard skies: how bright a sky is in each direction, by its cloud and haze.
+//! Standard skies: the distribution of sky radiance for different amounts of cloud and haze.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -11,10 +11,10 @@ pub struct StandardSky {
     number: usize,
 }
 
-/// How radiance changes from horizon to zenith: a and b.
+/// Gradation of radiance from horizon to zenith: a and b.
 const GRADATIONS: [[f64; 2]; 6] =
     [[4.0, -0.70], [1.1, -0.8], [0.0, -1.0], [-1.0, -0.55], [-1.0, -0.32], [-1.0, -0.15]];
-/// How it changes with the distance from the sun: c, d and e.
+/// Indicatrix, the change of radiance with the distance from the sun: c, d and e.
 const INDICATRICES: [[f64; 3]; 6] = [
     [0.0, -1.0, 0.0],
     [2.0, -1.5, 0.15],
@@ -23,7 +23,7 @@ const INDICATRICES: [[f64; 3]; 6] = [
     [16.0, -3.0, 0.30],
     [24.0, -2.8, 0.15],
 ];
-/// Which of both each type has.
+/// Indices of gradation and indicatrix for each type.
 const TYPES: [[usize; 2]; 15] = [
     [0, 0],
     [0, 1],
@@ -42,7 +42,7 @@ const TYPES: [[usize; 2]; 15] = [
     [5, 5],
 ];
 
-/// Parts of a sky that are added up, in height and round the horizon: the sum is off by less than 1e-4.
+/// Numerical integration over height and azimuth: the error is less than 1e-4.
 const HEIGHTS: usize = 128;
 const AZIMUTHS: usize = 96;
 
@@ -50,7 +50,7 @@ impl StandardSky {
     /// A clear sky of low turbidity: type 12.
     pub const CLEAR: Self = Self { number: 12 };
 
-    /// The sky of this type, 1 to 15; none of another.
+    /// The sky of this type, 1 to 15; `None` for other numbers.
     ///
     /// # Example
     /// ```
@@ -69,8 +69,8 @@ impl StandardSky {
         self.number
     }
 
-    /// Irradiance of an open horizontal plane by its relative radiance, the sine of the sun's elevation being
-    /// `sun_height`.
+    /// Irradiance of an unobstructed horizontal plane, on the scale of [`StandardSky::radiance`].
+    /// `sun_height` is the sine of the sun's elevation.
     #[must_use]
     pub fn irradiance(self, sun_height: f64) -> f64 {
         let sun_horizontal = (1.0 - sun_height * sun_height).max(0.0).sqrt();
@@ -82,13 +82,12 @@ impl StandardSky {
             };
             (0..AZIMUTHS).map(at).sum::<f64>()
         };
-        // rings of equal shares in what a horizontal plane receives of an even sky
+        // rings that contribute equally to a horizontal plane under a uniform sky
         let height = |n: usize| ((n as f64 + 0.5) / HEIGHTS as f64).sqrt();
         PI / (HEIGHTS * AZIMUTHS) as f64 * (0..HEIGHTS).map(|n| ring(height(n))).sum::<f64>()
     }
 
-    /// Relative radiance from a direction with these cosines of its angles with the zenith, above 0, and with
-    /// the sun.
+    /// Relative radiance in a direction, by the cosines of its angles to the zenith (above 0) and to the sun.
     #[must_use]
     pub fn radiance(self, cos_to_zenith: f64, cos_to_sun: f64) -> f64 {
         let [gradation, indicatrix] = TYPES[self.number - 1];
@@ -104,8 +103,8 @@ impl StandardSky {
 mod tests {
     use super::*;
 
-    /// An even one gives a horizontal plane π times its radiance, the overcast one of Moon and Spencer's kind
-    /// nearly 7/9 of that at its zenith.
+    /// A uniform sky gives a horizontal plane π times its radiance, an overcast one after Moon and Spencer
+    /// nearly 7/9 of that for the radiance at its zenith.
     #[test]
     fn skies_are_added_up() {
         let of = |number: usize, height| StandardSky::of_type(number).unwrap().irradiance(height);
@@ -114,14 +113,14 @@ mod tests {
         assert!((of(1, 0.5) / (zenith * PI) - 7.0 / 9.0).abs() < 0.01);
     }
 
-    /// The standard's own numbers: an overcast sky of type 1 is three times as bright at the zenith as at the
-    /// horizon, one of type 5 is even.
+    /// According to the standard an overcast sky of type 1 is three times as bright at the zenith as at the
+    /// horizon, and one of type 5 is uniform.
     #[test]
     fn skies_are_those_of_the_standard() {
         let of = |number: usize, height: f64| StandardSky::of_type(number).unwrap().radiance(height, 0.0);
         assert!((of(1, 1.0) / of(1, 1e-6) - 2.986).abs() < 1e-3);
         assert!((of(5, 1.0) - of(5, 0.1)).abs() < 1e-12);
-        // clear ones are brightest at the sun and bright at the horizon
+        // clear skies are brightest at the sun, and bright at the horizon
         let clear = StandardSky::CLEAR;
         assert!(clear.radiance(0.7, 1.0) > 5.0 * clear.radiance(0.7, 0.0));
         assert!(clear.radiance(0.05, 0.0) > 2.0 * clear.radiance(1.0, 0.0));

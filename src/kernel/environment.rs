@@ -1,9 +1,7 @@
-//! Light of surroundings that are not alike in all directions on a fold: sky, ground, and the glow about the
-//! sun.
+//! Light of non-uniform surroundings on a fold: sky, ground, and the glow around the sun.
 //!
-//! Radiances are summed over directions; the opposite panel hides some, and what the panels get is bounced
-//! between them as in
-//! [`super::bent`].
+//! Radiances are summed over directions, with those hidden by the opposite panel left out, and the resulting
+//! light bounces between the panels as in [`super::bent`].
 
 use std::ops::Range;
 
@@ -16,31 +14,31 @@ use crate::geometry::{Fold, StandardSky};
 
 use super::bent::{BentExchange, BentFold, Seen};
 
-/// Directions in each half, which a spiral spreads evenly, so that no edge that hides light runs along many
-/// of them (R. Swinbank, R. J. Purser, *Quarterly Journal of the Royal Meteorological Society* 132 (2006), p.
-/// 1769).
+/// Directions in each half, spread evenly by a spiral, so that no edge that hides light runs along many of
+/// them (R. Swinbank, R. J. Purser, *Quarterly Journal of the Royal Meteorological Society* 132 (2006),
+/// p. 1769).
 const DIRECTIONS: usize = 800;
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// One part of the surroundings, which `up` parts into an upper and a lower half.
+/// One part of the surroundings, which the direction `up` divides into an upper and a lower half.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surroundings {
-    /// Alike from everywhere above the horizon: irradiance 1 on a horizontal plane that faces up.
+    /// Uniform above the horizon: irradiance 1 on a horizontal plane facing up.
     Sky,
-    /// Alike from everywhere below the horizon: irradiance 1 on a horizontal plane that faces down.
+    /// Uniform below the horizon: irradiance 1 on a horizontal plane facing down.
     Ground,
-    /// A standard sky with the sun where this unit vector points, above the horizon: irradiance 1 on a
-    /// horizontal plane that faces up.
+    /// A standard sky with the sun in the direction of this unit vector, above the horizon: irradiance 1 on a
+    /// horizontal plane facing up.
     Standard(StandardSky, Vector3<f64>),
-    /// An overcast sky, irradiance 1 on a horizontal plane that faces up: three times as bright at the zenith
-    /// as at the horizon (P. Moon, D. E. Spencer, *Illuminating Engineering* 37 (1942), p. 707; CIE standard
+    /// An overcast sky, irradiance 1 on a horizontal plane facing up: three times as bright at the zenith as
+    /// at the horizon (P. Moon, D. E. Spencer, *Illuminating Engineering* 37 (1942), p. 707; CIE standard
     /// overcast sky).
     OvercastSky,
 }
 
 impl Surroundings {
-    /// Relative radiance from a direction whose cosine with the zenith (the nadir for the ground) is
-    /// `height`.
+    /// Relative radiance from a direction; `height` is its cosine with the zenith (with the nadir for the
+    /// ground).
     fn radiance(self, towards: &Vector3<f64>, height: f64) -> f64 {
         match self {
             Self::Sky | Self::Ground => 1.0,
@@ -50,21 +48,21 @@ impl Surroundings {
     }
 }
 
-/// Parts of the surroundings as directions that share their light.
+/// Parts of the surroundings, represented by directions with shares of their light.
 pub struct Environment<const PARTS: usize> {
     /// Unit vectors towards the light, coordinate by coordinate.
     rays: [Vec<f64>; 3],
-    /// Irradiance by each ray on a plane that faces it, part by part: each shines from above or from below,
-    /// and is 0 in the other half.
+    /// For each part the range of its rays, those above or those below, and each ray's irradiance on a plane
+    /// facing it.
     irradiances: [(Range<usize>, Vec<f64>); PARTS],
 }
 
-/// Numbers that are computed with at once: vectors of all processors hold a power of two up to this.
+/// Numbers processed at once: the vectors of every processor hold a power of two up to this.
 const LANES: usize = 8;
 const _: () = assert!(DIRECTIONS.is_multiple_of(LANES));
 
 impl<const PARTS: usize> Environment<PARTS> {
-    /// The light of `parts`, where the unit vector `up` points to the zenith in the coordinates of
+    /// The light of `parts`, where the unit vector `up` points to the zenith, in the coordinates of
     /// [`Fold::panels`].
     #[must_use]
     pub fn new(parts: [Surroundings; PARTS], up: Vector3<f64>) -> Self {
@@ -98,7 +96,7 @@ impl<const PARTS: usize> Environment<PARTS> {
         Self { rays, irradiances }
     }
 
-    /// Irradiance of an open plane with this unit normal, by each part.
+    /// Irradiance of an unobstructed plane with this unit normal, by each part.
     ///
     /// # Example
     /// ```
@@ -112,13 +110,13 @@ impl<const PARTS: usize> Environment<PARTS> {
         Arch::new().dispatch(Gathered { light: self, place: Vector3::zeros(), normal, screens: &[] })
     }
 
-    /// Irradiance of a place on the fold past its panels, which are flat but where they meet.
+    /// Irradiance at a point of the fold, with light hidden by its panels, which are taken as flat.
     fn on_sheet(&self, place: Vector3<f64>, normal: Vector3<f64>, panels: &[Screen; 2]) -> [f64; PARTS] {
         Arch::new().dispatch(Gathered { light: self, place, normal, screens: panels })
     }
 }
 
-/// Irradiance of a place, by the widest vectors that the processor has.
+/// Irradiance at a point, computed with the widest vectors of the processor.
 struct Gathered<'a, const PARTS: usize> {
     light: &'a Environment<PARTS>,
     place: Vector3<f64>,
@@ -149,7 +147,8 @@ impl<const PARTS: usize> WithSimd for Gathered<'_, PARTS> {
                 [out.dot(&place), place.y, height].map(|value| simd.splat_f64s(value));
             let [depth, half_width] = [*depth, *half_width].map(|value| simd.splat_f64s(value));
             for (n, cosine) in cosines.iter_mut().enumerate() {
-                // where the panel's plane is met, times how steeply it is approached: nothing is divided
+                // Intersection with the panel's plane, multiplied by the cosine of approach to avoid a
+                // division.
                 let approach = along(simd, towards, rays, n);
                 let met_out = simd.mul_add_f64s(from_crease, approach, along(simd, outwards, rays, n));
                 let met_along = simd.mul_add_f64s(from_middle, approach, simd.mul_f64s(height, rays[1][n]));
@@ -175,24 +174,24 @@ impl<const PARTS: usize> WithSimd for Gathered<'_, PARTS> {
     }
 }
 
-/// The same vector for many rays.
+/// One vector, repeated for many rays.
 #[inline(always)]
 fn splat<S: Simd>(simd: S, vector: Vector3<f64>) -> [S::f64s; 3] {
     [simd.splat_f64s(vector.x), simd.splat_f64s(vector.y), simd.splat_f64s(vector.z)]
 }
 
-/// How far rays go along a vector.
+/// Dot products of rays with a vector.
 #[inline(always)]
 fn along<S: Simd>(simd: S, [a, b, c]: [S::f64s; 3], [x, y, z]: [&[S::f64s]; 3], n: usize) -> S::f64s {
     simd.mul_add_f64s(a, x[n], simd.mul_add_f64s(b, y[n], simd.mul_f64s(c, z[n])))
 }
 
-/// Radiance of the facets of a sheet bent like this in each of these lights, part by part, all bounces
-/// included: in the unit in which a perfect diffuser with irradiance 1 has 1. Facets are those of `fold`,
-/// seen from far away from the direction `eye`.
+/// Radiance of the facets of a sheet bent like this in each of these lights, for each part, all bounces
+/// included; a perfect diffuser with irradiance 1 has radiance 1. Facets are those of `fold`, seen from far
+/// away in the direction `eye`.
 ///
 /// # Returns
-/// Light by light, part by part: facet by albedo, as [`BentFold::facet_radiance`].
+/// For each light and part: facet by albedo, as [`BentFold::facet_radiance`].
 ///
 /// # Errors
 /// [`crate::Error::Numeric`] if light does not leave the fold.
@@ -226,7 +225,7 @@ pub fn facet_radiances<const PARTS: usize>(
         radiances
     };
     let mut radiances: Vec<[Array2<f64>; PARTS]> = lights.iter().map(direct).collect();
-    // patches of both exchanges are the same
+    // both exchanges have the same patches
     let on_patch = |[place, normal]: [Vector3<f64>; 2]| {
         let mirrored = Vector3::new(place.x, -place.y, place.z);
         lights.iter().flat_map(move |light| {
@@ -252,7 +251,7 @@ pub fn facet_radiances<const PARTS: usize>(
     Ok(radiances)
 }
 
-/// A panel as it hides light from the rest of the sheet.
+/// A panel as an obstacle that hides light from the rest of the sheet.
 struct Screen {
     out: Vector3<f64>,
     facing: Vector3<f64>,
@@ -260,7 +259,7 @@ struct Screen {
     half_width: f64,
 }
 
-/// Height above a panel, in the fold's unit, up to which a place is on it.
+/// Points up to this height above a panel, in the fold's unit, count as on it.
 const ON_PANEL: f64 = 1e-9;
 
 impl Screen {
@@ -283,7 +282,7 @@ mod tests {
     use super::*;
     use crate::geometry::FacetGrid;
 
-    /// A white sheet in light that is alike everywhere is as bright as that, however it is bent.
+    /// A white sheet in uniform surroundings is as bright as they are, however it is bent.
     #[test]
     fn a_white_sheet_vanishes_in_even_light() {
         let fold = Fold::new(48.0, 1.0, 1.0, FacetGrid { rows: 10, cols: 10 }).unwrap();

@@ -1,4 +1,4 @@
-//! How finely the bounces are solved, which is not how finely colour is measured.
+//! Resolution at which interreflections are solved, as opposed to that at which colour is measured.
 
 use std::fmt;
 
@@ -7,19 +7,19 @@ use crate::error::Result;
 use crate::geometry::{FacetGrid, Fold};
 use crate::response::Response;
 
-/// Relative error of facet means that is below what a camera sees.
+/// Relative error of facet means too small for a camera to see.
 pub const TOLERANCE: f64 = 1e-5;
 
-/// The mesh on which the bounces of light are solved.
+/// The mesh on which interreflections are solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mesh {
-    /// As fine as the tolerance asks for, where the scene needs it: facet means of the continuous solution.
+    /// As fine as the tolerance demands, where the scene needs it: facet means of the continuous solution.
     Auto,
     /// One flat patch per facet, as in the paper.
     Facets,
-    /// Flat patches finer than the facets, then averaged.
+    /// Flat patches finer than the facets, over which they are averaged.
     Patches(FacetGrid),
-    /// The same on a shape: cells along each side of a facet.
+    /// The same for other shapes: number of cells along each side of a facet.
     Cells(usize),
 }
 
@@ -34,50 +34,51 @@ impl fmt::Display for Mesh {
     }
 }
 
-/// What the solution of a scene's bounces is worth.
+/// Accuracy of the solution of a scene's interreflections.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accuracy {
-    /// Unknowns of a panel in the last solution.
+    /// Unknowns per panel in the last solution.
     pub unknowns: usize,
-    /// Estimated largest relative error of a facet's mean radiance for any reflectance in [0, 1]; none where
-    /// the mesh was given and no second solution made.
+    /// Estimated largest relative error of a facet's mean radiance for any reflectance in [0, 1]; `None` if
+    /// the mesh was given, so that there is no second solution.
     pub facet_mean_error: Option<f64>,
-    /// Residual that Lanczos' method left in the equations of the bounces, relative to the light.
+    /// Residual of Lanczos' method, relative to the light.
     pub residual: f64,
-    /// The form factors between flat patches; none where the panels were not divided.
+    /// The form factors between flat patches; `None` if the panels were not divided.
     pub kernel: Option<KernelSource>,
 }
 
-/// What form factors were sampled by.
+/// How form factors were sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
-    /// As `vkernel --sampling` names it.
+    /// Name of the sampling, as in `vkernel --sampling`.
     pub sampling: &'static str,
-    /// Pairs of points a distinct entry, or rays a row of facets.
+    /// Point pairs per distinct entry, or rays per row of facets.
     pub count: u32,
-    /// Seed of the generator.
+    /// Seed of the random generator.
     pub seed: u64,
 }
 
-/// Where form factors come from.
+/// Origin of the form factors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KernelSource {
-    /// By which method, as `vkernel --method` names it.
+    /// Name of the method, as in `vkernel --method`.
     pub method: &'static str,
-    /// The samples, if it takes some.
+    /// The samples, if the method uses any.
     pub samples: Option<Samples>,
-    /// Largest standard error of one, if they are estimates.
+    /// Largest standard error of an entry, if entries are estimates.
     pub entry_sd: Option<f64>,
-    /// How many were found: those that differ.
+    /// Number of distinct entries computed.
     pub entries: usize,
 }
 
-/// Solves the bounces on `fold` under even light, for every reflectance, on undivided panels, to `tolerance`.
+/// Solves interreflections of uniform light on undivided panels of `fold`, for every reflectance, to
+/// `tolerance`.
 ///
-/// The error stays above the tolerance, and says so, where reaching it would take too long.
+/// Where reaching the tolerance would take too long, the error remains above it and is reported as such.
 ///
 /// # Errors
-/// A fold so narrow that no solution fits.
+/// [`Error::Usage`](crate::Error::Usage) for a fold so narrow that no solution fits.
 ///
 /// # Example
 /// ```

@@ -1,10 +1,10 @@
-//! How much of the light that leaves one panel of a fold reaches the other: geometry alone, no light, no
+//! Share of the light leaving one panel of a fold that reaches the other: geometry alone, without light or
 //! colour.
 //!
-//! [`continuum`] holds the exchange between panels that are not divided at all, eqs. (1) to (4), which
-//! [`refinement`] resolves as finely as asked for; [`respond`](mesh::respond) makes of it what light becomes.
-//! Panels that are [`bent`] and the light of the [`environment`] go through flat strips and facets. Form
-//! factors between facets, as the paper has them, are in [`paper`](crate::paper); what is no fold in
+//! [`continuum`] holds the exchange between undivided panels, eqs. (1) to (4), which [`refinement`] resolves
+//! as finely as required; [`respond`](mesh::respond) turns it into the response to light. Panels that are
+//! [`bent`] and the light of the [`environment`] are computed with flat strips and facets. Form factors
+//! between facets, as in the paper, are in [`paper`](crate::paper); shapes other than folds in
 //! [`surfaces`](crate::surfaces).
 
 pub mod bent;

@@ -18,14 +18,14 @@ pub struct Rule {
     pub weights: Vec<f64>,
 }
 
-/// Rules of fewer points than this are kept.
+/// Rules with fewer points than this are cached.
 const KEPT: usize = 64;
 
 impl Rule {
     /// The `order`-point Gauss–Legendre rule on [-1, 1], exact for polynomials of degree `2·order − 1`.
     ///
-    /// Newton's method on the Legendre polynomial from Tricomi's asymptotic roots
-    /// (Press et al., *Numerical Recipes*, 3rd ed., section 4.6).
+    /// Newton's method on the Legendre polynomial, starting from Tricomi's asymptotic roots (Press et
+    /// al., *Numerical Recipes*, 3rd ed., section 4.6).
     ///
     /// # Example
     /// ```
@@ -39,7 +39,7 @@ impl Rule {
         Self { nodes, weights }
     }
 
-    /// [`Rule::gauss_legendre`], which is kept for the next time unless it has 64 points or more.
+    /// [`Rule::gauss_legendre`], cached if it has fewer than 64 points.
     ///
     /// # Example
     /// ```
@@ -69,7 +69,7 @@ impl Rule {
         let legendre = Self::gauss_legendre(order + 1);
         let halves = [(-1.0, 0.0), (0.0, 1.0)].into_iter().flat_map(|(low, high)| legendre.on(low, high));
         let measure: Vec<(f64, f64)> = halves.map(|(x, w)| (x, w * (1.0 - x.abs()))).collect();
-        // Orthonormal polynomials at the nodes; the weight is even, so that their recurrence has no diagonal.
+        // Orthonormal polynomials at the nodes; as the weight is even, their recurrence has no diagonal.
         let (mut before, mut now) = (vec![0.0; measure.len()], vec![1.0; measure.len()]);
         let mut off_diagonal = Vec::new();
         for _ in 1..order {
@@ -80,7 +80,7 @@ impl Rule {
             before = std::mem::replace(&mut now, next.iter().map(|p| p / norm).collect());
             off_diagonal.push(norm);
         }
-        // The first components of the eigenvectors.
+        // First components of the eigenvectors.
         let Eigen { values, vectors } =
             Eigen::seen(DMatrix::identity(1, order), &vec![0.0; order], &off_diagonal);
         let mut rule: Vec<(f64, f64)> = (0..order).map(|k| (values[k], vectors[(0, k)].powi(2))).collect();
@@ -89,16 +89,16 @@ impl Rule {
         Self { nodes, weights }
     }
 
-    /// Nodes and weights of this rule on [-1, 1] moved to `[low, high]`.
+    /// Nodes and weights of this rule, mapped from [-1, 1] to `[low, high]`.
     pub fn on(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
         self.nodes.iter().zip(&self.weights).map(move |(x, w)| (middle + half * x, half * w))
     }
 }
 
-/// ρ of the largest ellipse with foci at the ends of `[low, high]` that does not hold the point `re ± i·im`
-/// of the complex plane: a Gauss rule of n points integrates a function that is singular there to about
-/// `ρ^(−2n)` (Trefethen, *Approximation Theory and Approximation Practice*, chapter 19).
+/// ρ of the largest ellipse with foci at the ends of `[low, high]` that excludes the point `re ± i·im` of the
+/// complex plane: the error of an n-point Gauss rule for a function that is singular there is about `ρ^(−2n)`
+/// (Trefethen, *Approximation Theory and Approximation Practice*, chapter 19).
 ///
 /// # Example
 /// ```
@@ -137,8 +137,8 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - previous) / (x * x - 1.0))
 }
 
-/// Values at `points` in [-1, 1] of the Legendre polynomials of degree 0 on: one degree after the other, as
-/// many as `values` holds.
+/// Values of the Legendre polynomials at `points` in [-1, 1], degree by degree from 0, as many as `values`
+/// holds.
 pub fn legendre_series(points: &[f64], values: &mut [f64]) {
     let mut degrees = values.chunks_exact_mut(points.len());
     let Some(mut before) = degrees.next() else { return };
@@ -162,11 +162,11 @@ pub struct Lagrange {
     scale: Vec<f64>,
 }
 
-/// A distance as good as zero that still has a finite inverse.
+/// A distance that is practically zero but has a finite inverse.
 const NEGLIGIBLE: f64 = 1e-200;
 
 impl Lagrange {
-    /// Interpolation through `nodes`, all different.
+    /// Interpolation through distinct `nodes`.
     #[must_use]
     pub fn new(nodes: &[f64]) -> Self {
         let others = |k: usize| nodes.iter().enumerate().filter(move |(m, _)| *m != k);
@@ -174,7 +174,7 @@ impl Lagrange {
         Self { nodes: nodes.to_vec(), scale: (0..nodes.len()).map(scale).collect() }
     }
 
-    /// Weights of the nodes' values at `x`, as many as there are nodes.
+    /// Weights of the values at the nodes for interpolation at `x`, one per node.
     ///
     /// The barycentric formula (Trefethen, *Approximation Theory and Approximation Practice*, chapter 5).
     ///
@@ -197,7 +197,7 @@ impl Lagrange {
         for ((weights, node), scale) in of_nodes {
             for ((weight, x), sum) in weights.iter_mut().zip(points).zip(&mut sums) {
                 let distance = x - node;
-                // At a node the others weigh nothing beside it.
+                // At a node, the weights of the others are negligible.
                 *weight = scale / if distance.abs() < NEGLIGIBLE { NEGLIGIBLE } else { distance };
                 *sum += *weight;
             }
@@ -237,8 +237,8 @@ mod tests {
         }
     }
 
-    /// Poles at ±0.5i of 1/(x² + 0.25), and at −1.5 of 1/(x + 1.5): a point more makes the error ρ² times
-    /// smaller.
+    /// Poles at ±0.5i of 1/(x² + 0.25), and at −1.5 of 1/(x + 1.5): each additional point divides the error
+    /// by ρ².
     #[test]
     fn an_ellipse_says_how_fast_rules_converge() {
         let tame = (4.0 * 2.0_f64.atan(), [0.0, 0.5], (|x| 1.0 / (x * x + 0.25)) as fn(f64) -> f64);

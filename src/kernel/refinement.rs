@@ -1,4 +1,4 @@
-//! Undivided panels, resolved ever finer until the facet means are right.
+//! Undivided panels, refined until the facet means are accurate.
 
 use crate::error::{Error, Result};
 use crate::geometry::Fold;
@@ -6,36 +6,37 @@ use crate::kernel::continuum::{Continuum, Resolution};
 use crate::response::{ModeLight, Modes, Response};
 use crate::room;
 
-/// Most unknowns of one solution: its matrix then has 800 MB, if nothing in it is negligible.
+/// Maximum number of unknowns of a solution: its matrix takes 800 MB if no entry is negligible.
 const UNKNOWNS_MAX: usize = 10_000;
-/// Most multiplications of one solution, of which one in six is done: a few seconds. A 1° fold takes hundreds
-/// of products with its matrix.
+/// Maximum number of multiplications of a solution, one in six of which is performed: a few seconds. A 1°
+/// fold takes hundreds of products with its matrix.
 const PRODUCTS_MAX: f64 = 4e10;
-/// Error that is aimed at, relative to the tolerance, so that the solution meets it more often than not.
+/// Target error relative to the tolerance, low enough for a solution to meet the tolerance more often than
+/// not.
 const AIM: f64 = 0.2;
-/// The estimated error, relative to the one that the solution should have from its forerunner's.
+/// Safety factor on the error of a solution extrapolated from that of the coarser one.
 const SAFETY: f64 = 3.0;
-/// The least error estimate, relative to the target: where a coarser one has as many strips, both lack the
-/// same.
+/// Lower bound of the error estimate, relative to the target: if the coarser solution has as many strips,
+/// both share the same error.
 const LEAST: f64 = 2.0;
-/// How much finer a solution is than the coarser one that tells its error.
+/// Ratio of the target errors of the coarser and the finer solution.
 const STEP: f64 = 100.0;
-/// The same where the coarser one is the coarsest.
+/// Least such ratio if the coarser solution is the coarsest.
 const LEAST_STEP: f64 = 20.0;
-/// The largest error to begin with: still coarser solutions do not tell what finer ones gain.
+/// Largest initial target error: coarser solutions do not show what refinement gains.
 const COARSEST: f64 = 0.005;
-/// Reflectances at which two solutions are compared; the last is the hardest.
+/// Reflectances at which two solutions are compared; the last is the most demanding.
 const PROBES: [f64; 3] = [0.5, 0.9, 1.0];
 
 /// A solution with its estimated error.
 pub struct Refined {
     /// Poles and residues.
     pub response: Response,
-    /// Unknowns of a panel.
+    /// Unknowns per panel.
     pub unknowns: usize,
-    /// Estimated largest relative error of a facet mean, for any reflectance in [0, 1].
+    /// Estimated largest relative error of a facet mean for any reflectance in [0, 1].
     pub error: f64,
-    /// Residual that Lanczos' method left, relative to the light.
+    /// Residual of Lanczos' method, relative to the light.
     pub residual: f64,
 }
 
@@ -46,17 +47,17 @@ struct Solution {
     residual: f64,
 }
 
-/// Solves the bounces on `fold` ever finer until the estimated error is within `tolerance`; it stays above
-/// where the next solution would take too long.
+/// Solves interreflections on `fold` with increasing resolution until the estimated error is within
+/// `tolerance`, or the next solution would take too long.
 ///
-/// The difference of two solutions is the error of the coarser one. The finer one's is smaller by as much as
-/// its resolution aims at less; `SAFETY` allows for folds that differ from the one by which resolutions were
-/// chosen.
+/// The difference between two solutions is the error of the coarser one. The error of the finer one is
+/// smaller by the ratio of their targets; `SAFETY` allows for folds unlike the one for which resolutions were
+/// tuned.
 ///
 /// # Errors
 /// [`Error::Usage`] if not even the first solutions fit.
 pub fn refine(fold: &Fold, tolerance: f64) -> Result<Refined> {
-    // On one of the pool's threads, which need not be woken up for every product.
+    // Runs on a thread of the pool, which then need not be woken up for every product.
     rayon::scope(|_| refine_here(fold, tolerance))
 }
 
@@ -72,17 +73,17 @@ fn refine_here(fold: &Fold, tolerance: f64) -> Result<Refined> {
     while error > tolerance
         && let Some(finer) = solve(fold, 0.9 * tolerance / error * fine.aim, fine.response.poles().len())?
     {
-        // Against the coarse one again: two solutions that are nearly the same would tell nothing.
+        // Compared with the coarse one again: two almost equal solutions reveal nothing.
         error = estimated_error(&coarse, &finer);
         fine = finer;
     }
-    // Lanczos' solution is short of light, so that no more than all of it can be missing.
+    // Lanczos' solution lacks light, but at most all of it.
     let error = error.max((fine.residual / loss(fold)).min(1.0));
     Ok(Refined { response: fine.response, unknowns: fine.unknowns, error, residual: fine.residual })
 }
 
-/// A coarse solution, and a finer one that aims at this error or, if that would take too long, at one as near
-/// as it may be; the coarse one and a still coarser one if nothing finer can be had.
+/// A coarse solution and a finer one, whose target is `aim` or, if that would take too long, as close to it
+/// as possible; if no finer solution is feasible, a still coarser one and the coarse one.
 fn first_two(fold: &Fold, aim: f64) -> Result<Option<(Solution, Solution)>> {
     let start = COARSEST.min(STEP * aim);
     let Some(first) = solve(fold, start, 1)? else { return Ok(None) };
@@ -101,8 +102,8 @@ fn estimated_error(coarse: &Solution, fine: &Solution) -> f64 {
     of_difference.max(LEAST * fine.aim)
 }
 
-/// The solution that aims at this error; none if it would take too long, `poles` being those of the one
-/// before.
+/// The solution with this target error; `None` if it would take too long. `poles` is the number of poles of
+/// the previous solution.
 fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
     let resolution = Resolution::reaching(aim, fold);
     let unknowns = resolution.unknowns(fold);
@@ -115,7 +116,7 @@ fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
     Ok(Some(Solution { aim, response, unknowns, residual }))
 }
 
-/// Roughly the smallest share of light that a bounce loses: a residual grows by at most its inverse.
+/// Approximate minimum share of light lost per bounce: a residual grows by at most its inverse.
 fn loss(fold: &Fold) -> f64 {
     (0.5 * fold.angle_rad()).sin()
 }

@@ -1,21 +1,21 @@
-//! What a scene does not need, counted: the work that its symmetries and its light make superfluous.
+//! Counts the work that a scene's symmetries and light make unnecessary.
 
 use crate::geometry::{Fold, Light};
 use crate::kernel::mesh::Accuracy;
 
-/// Work that was not done.
+/// Work that was skipped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Skipped {
     /// What was not computed, in the plural.
     pub what: &'static str,
-    /// How many of them.
+    /// Their number.
     pub count: usize,
-    /// Why none is missed.
+    /// Why they are not needed.
     pub why: &'static str,
 }
 
-/// What was skipped in solving the bounces on `fold`, of which `accuracy` tells how they were solved, with
-/// `poles` of the unknowns left; nothing that was skipped zero times.
+/// The work skipped in solving interreflections on `fold`, given the `accuracy` of the solution and the
+/// number of `poles` left of its unknowns. Entries with a count of zero are omitted.
 ///
 /// # Example
 /// ```

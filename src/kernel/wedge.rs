@@ -1,14 +1,14 @@
 //! The exchange between strips of the two panels, exact to rounding.
 //!
 //! Eq. (10) with every facet averaged over its whole area; eq. (2) at facet centres, as printed, lets a fold
-//! hand on more light than it has. With s and t the distances from the crease and z the shift along it, the
-//! kernel of eq. (2) is `sin²θ·s·t / (π r⁴)`, `r² = q² + z²`, `q² = s² + t² − 2st·cosθ`, so an entry depends
-//! on the two rows and on the number of columns between the facets alone. Lengths are in units of the facet's
-//! width along the crease.
+//! pass on more light than it receives. With s and t the distances from the crease and z the shift along it,
+//! the kernel of eq. (2) is `sin²θ·s·t / (π r⁴)`, `r² = q² + z²`, `q² = s² + t² − 2st·cosθ`, so an entry
+//! depends only on the two rows and the number of columns between the facets. Lengths are in units of the
+//! facet's width along the crease.
 //!
 //! Near pairs: the shift and one row direction are integrated in closed form, the other by Gauss–Legendre
 //! panels after `b = a·cosθ + a·sinθ·sinh u`, which moves every singularity to `Im u = ±π/2`. Far pairs:
-//! Gauss–Legendre in all three directions, with the order that the nearest singularity asks for.
+//! Gauss–Legendre in all three directions, with the order demanded by the nearest singularity.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -16,21 +16,21 @@ use std::ops::Range;
 use super::quadrature::Rule;
 use crate::geometry::Fold;
 
-/// Beyond this order of Gauss rule the near formula is the cheaper one.
+/// Above this order of Gauss rule the near formula is cheaper.
 const FAR_ORDER_MAX: usize = 14;
-/// Points of a near panel, and the length of a panel that they integrate to rounding.
+/// Points of a near panel, and the panel length that they integrate to rounding.
 const NEAR_ORDER: usize = 13;
 const NEAR_PANEL: f64 = 1.5;
-/// Truncation error asked of the far rules, relative.
+/// Relative truncation error required of the far rules.
 const FAR_TOLERANCE: f64 = 1e-15;
-/// Shifts, relative to the distance of two facets, over which the far rules keep their orders.
+/// Range of shifts, relative to the distance of two facets, over which the far rules keep their orders.
 const SAME_ORDERS: f64 = 0.15;
 
 /// The opening angle of a fold and the rules that integrate over it.
 pub struct Wedge {
     sin: f64,
     cos: f64,
-    /// `1 − cosθ`, which would lose digits as a difference when θ is small.
+    /// `1 − cosθ`, computed without cancellation for small θ.
     one_minus_cos: f64,
     /// Rules of order 1, 2, and so on.
     far: Vec<Rule>,
@@ -39,13 +39,13 @@ pub struct Wedge {
 }
 
 impl Wedge {
-    /// Of `fold`.
+    /// For `fold`.
     #[must_use]
     pub fn new(fold: &Fold) -> Self {
         let angle_rad = fold.angle_rad();
         let half_sin = (angle_rad / 2.0).sin();
         Self {
-            // A flat sheet exchanges nothing with itself: sin π would leave 1e-16 of nothing.
+            // A flat sheet exchanges nothing with itself; sin π would leave 1e-16.
             sin: if fold.is_flat() { 0.0 } else { angle_rad.sin() },
             cos: angle_rad.cos(),
             one_minus_cos: 2.0 * half_sin * half_sin,
@@ -54,8 +54,7 @@ impl Wedge {
         }
     }
 
-    /// Area times form factor of facets of width 1 in rows `s` and `t`, for every shift along the crease from
-    /// 0.
+    /// Area times form factor of facets of width 1 in rows `s` and `t`, for shifts 0, 1, … along the crease.
     pub fn exchange(&self, s: &Range<f64>, t: &Range<f64>, shifts: &mut [f64]) {
         if self.sin == 0.0 {
             return shifts.fill(0.0);
@@ -66,7 +65,7 @@ impl Wedge {
             let gap = (k as f64 - 1.0).max(0.0);
             match self.far_orders(s, t, gap, across) {
                 Some(orders) => {
-                    // Orders fall slowly with the distance: those found here serve for the next few shifts.
+                    // Orders fall slowly with distance: those computed here serve for the next few shifts.
                     let end = (k + 1 + (SAME_ORDERS * across.hypot(gap)) as usize).min(shifts.len());
                     self.far(s, t, k, orders, &mut shifts[k..end]);
                     k = end;
@@ -81,12 +80,12 @@ impl Wedge {
         shifts.iter_mut().for_each(|value| *value *= scale);
     }
 
-    /// `∫∫∫ (1 − |z|) s t / r⁴ dz ds dt` with the shift and one row direction in closed form.
+    /// `∫∫∫ (1 − |z|) s t / r⁴ dz ds dt`, with the shift and one row direction in closed form.
     fn near(&self, s: &Range<f64>, t: &Range<f64>, k: f64) -> f64 {
         self.side(s.end, t, k) - self.side(s.start, t, k) + self.side(t.end, s, k) - self.side(t.start, s, k)
     }
 
-    /// `J(a) = a² ∫ b·W₂(q)/q⁴ db` over the other facet's row: what the side at distance `a` adds.
+    /// `J(a) = a² ∫ b·W₂(q)/q⁴ db` over the other facet's row: the contribution of the side at distance `a`.
     fn side(&self, a: f64, row: &Range<f64>, k: f64) -> f64 {
         if a == 0.0 {
             return 0.0;
@@ -108,7 +107,7 @@ impl Wedge {
     }
 
     /// Orders of the Gauss rules in s, t and along the crease that reach rounding for facets whose columns
-    /// leave `gap` between them and whose rows are `across` apart, if all are moderate.
+    /// are separated by `gap` and whose rows are `across` apart; `None` if one is too high.
     fn far_orders(&self, s: &Range<f64>, t: &Range<f64>, gap: f64, across: f64) -> Option<[usize; 3]> {
         // z runs over two widths from the nearer ends of the facets.
         let along_z = gauss_order(gap, gap + 2.0, across)?;
@@ -129,7 +128,7 @@ impl Wedge {
         Some(worst)
     }
 
-    /// Least distance across the crease between points of two rows.
+    /// Smallest distance across the crease between points of two rows.
     fn nearest(&self, s: &Range<f64>, t: &Range<f64>) -> f64 {
         let q = |a: f64, b: f64| ((a - b).powi(2) + 2.0 * a * b * self.one_minus_cos).sqrt();
         let clamp = |a: f64, row: &Range<f64>| (a * self.cos).clamp(row.start, row.end);
@@ -138,7 +137,7 @@ impl Wedge {
         from_s.into_iter().chain(from_t).fold(f64::INFINITY, f64::min)
     }
 
-    /// The same by Gauss rules of the given orders, for shifts from `k` on.
+    /// The same integral by Gauss rules of the given orders, for shifts starting at `k`.
     fn far(&self, s: &Range<f64>, t: &Range<f64>, k: usize, orders: [usize; 3], shifts: &mut [f64]) {
         let [rule_s, rule_t, hat] =
             [&self.far[orders[0] - 1], &self.far[orders[1] - 1], &self.hats[orders[2] - 1]];
@@ -158,11 +157,11 @@ impl Wedge {
     }
 }
 
-/// Gauss order that integrates to [`FAR_TOLERANCE`] a function on `[low, high]` whose nearest singularities
-/// lie at `±i·im`; none if it exceeds [`FAR_ORDER_MAX`].
+/// Order of the Gauss rule that integrates, to [`FAR_TOLERANCE`], a function on `[low, high]` whose nearest
+/// singularities are at `±i·im`; `None` if it exceeds [`FAR_ORDER_MAX`].
 ///
-/// The error falls as ρ^(−2p), ρ the sum of the half axes of the Bernstein ellipse through the singularity
-/// (Trefethen, *Approximation Theory and Approximation Practice*, theorem 19.3).
+/// The error falls as ρ^(−2p), where ρ is the sum of the half axes of the Bernstein ellipse through the
+/// singularity (Trefethen, *Approximation Theory and Approximation Practice*, theorem 19.3).
 fn gauss_order(low: f64, high: f64, im: f64) -> Option<usize> {
     let axis = (low.hypot(im) + high.hypot(im)) / (high - low);
     let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();
@@ -173,8 +172,8 @@ fn gauss_order(low: f64, high: f64, im: f64) -> Option<usize> {
 /// Second difference over the shift `k` of `W(q, z) = ½[z·q·atan(z/q) + ½z²·ln(1 + q²/z²)]`, the kernel
 /// integrated along both facets' widths (times 2 q⁴ over the area element).
 ///
-/// The parts of W that are linear or constant in z vanish in the difference. Each branch leaves out those
-/// that outweigh the rest: `πzq/4 − q²/4` where q is small, nothing where it is large.
+/// Parts of W that are linear or constant in z vanish in the difference. Each branch omits those that would
+/// dominate: `πzq/4 − q²/4` for small q, none for large q.
 fn shift_integral(q: f64, k: f64) -> f64 {
     let close = |z: f64| if z == 0.0 { 0.25 * q * q } else { 0.5 * z * z * small_shift(q / z) };
     let distant = |z: f64| {

@@ -1,7 +1,7 @@
-//! Light on a fold, bounced for every reflectance at once: eqs. (26) to (28) with what a fold's symmetry
-//! saves.
+//! Interreflections of light on a fold for all reflectances at once: eqs. (26) to (28), exploiting the fold's
+//! symmetry.
 //!
-//! Since panels see each other and not themselves, K = [0 F; Fᵀ 0], and the modes of even light on one panel
+//! As panels see each other but not themselves, K = [0 F; Fᵀ 0], and the modes of uniform light on one panel
 //! give everything: panels of two reflectances, a tilted sun, and the sky, whose light on a panel is
 //! `1 − F·1`.
 
@@ -11,11 +11,11 @@ use super::lanczos::{Excited, Lanczos};
 use super::{ModeSet, PanelOperator};
 use crate::error::{Error, Result};
 
-/// Poles nearer to zero than this stay beside their twin of the other sign: rounding mixes the modes of near
-/// poles, and only the sum of the two is right to all digits.
+/// Poles nearer to zero than this are not merged with their twin of opposite sign: rounding mixes the modes
+/// of close poles, and only the sum of the two is accurate.
 const NEAR_TWIN: f64 = 1e-3;
 
-/// What the bounces make of even light on either panel, as poles and residues for every facet.
+/// Interreflections of uniform light on either panel, as poles and residues of every facet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
     modes: Modes,
@@ -23,44 +23,44 @@ pub struct Response {
     facets: usize,
 }
 
-/// Modes that even light excites.
+/// Modes excited by uniform light.
 ///
-/// Unit irradiance on one panel, both panels of reflectance r, becomes `Σ_k residue_k / (1 − r²·pole_k²)` on
-/// that panel, and the same with `r·pole_k·residue_k` on the other.
+/// Unit irradiance on one panel, both panels having reflectance r, becomes `Σ_k residue_k / (1 − r²·pole_k²)`
+/// on that panel, and the same with `r·pole_k·residue_k` on the other.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Modes {
-    /// Of a fold whose panels are alike: on any panel, whichever panel the light falls on.
+    /// For a symmetric fold: on either panel, whichever panel is lit.
     Shared(ModeSet),
-    /// Light on panel 0, light on panel 1: each set has the facets of panel 0, then those of panel 1.
+    /// Light on panel 0 and light on panel 1: each set holds the facets of panel 0, then those of panel 1.
     Separate([ModeSet; 2]),
 }
 
-/// What a light gives to one mode on a panel: a facet there receives
-/// `residue·(own + r_other·pole·other) / (1 − r_own·r_other·pole²)` of it.
+/// Excitation of a mode on a panel by a light: a facet there receives
+/// `residue·(own + r_other·pole·other) / (1 − r_own·r_other·pole²)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excitation {
     /// Pole of the mode.
     pub pole: f64,
-    /// From the light on the facet's own panel.
+    /// From light on the facet's own panel.
     pub own: f64,
-    /// From the light on the other panel.
+    /// From light on the other panel.
     pub other: f64,
 }
 
 impl Response {
-    /// Reduces `operator` to poles and residues whose residual in the system of eq. (15) is at most
-    /// `tolerance`, relative to the light, for every reflectance in [0, 1].
+    /// Reduces `operator` to poles and residues whose residual in eq. (15) is at most `tolerance`, relative
+    /// to the light, for every reflectance in [0, 1].
     ///
     /// # Returns
-    /// The response and the residual that it reached.
+    /// The response and the residual reached.
     ///
     /// # Source
-    /// Deeb et al., eqs. (16) and (26) to (28); Lanczos' method with partial reorthogonalisation (Simon,
-    /// *Mathematics of Computation* 42, 1984, p. 115); the residual of the system at r = 1, the slowest to
-    /// converge, stops it.
+    /// Deeb et al., eqs. (16) and (26) to (28); Lanczos' method with partial reorthogonalisation
+    /// (Simon, *Mathematics of Computation* 42, 1984, p. 115). It stops by the residual at r = 1, which
+    /// converges slowest.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if the light does not leave the fold: an operator that hands on all it receives.
+    /// [`Error::Numeric`] if light does not leave the fold: the operator passes on all it receives.
     pub fn solve<O: PanelOperator>(operator: &O, tolerance: f64) -> Result<(Self, f64)> {
         if operator.is_symmetric() {
             let start = operator.uniform(0);
@@ -79,7 +79,7 @@ impl Response {
         Ok((Self { modes: Modes::Separate([set0, set1]), facets }, residual0.max(residual1)))
     }
 
-    /// That of panels of so many `facets` that hand each other no light: a flat sheet.
+    /// The response of a flat sheet with this number of `facets` per panel, which exchange no light.
     #[must_use]
     pub fn without_bounces(facets: usize) -> Self {
         let set = ModeSet { poles: vec![0.0], residues: DMatrix::repeat(facets, 1, 1.0) };
@@ -89,8 +89,8 @@ impl Response {
     /// A response from its modes.
     ///
     /// # Errors
-    /// [`Error::Field`] if the shapes disagree, a pole is not inside (−1, 1), or the residues are not those
-    /// of even light.
+    /// [`Error::Field`] if the shapes disagree, a pole is not inside (−1, 1), or the residues do not belong
+    /// to uniform light.
     pub fn new(modes: Modes) -> Result<Self> {
         let (sets, panels): (&[ModeSet], _) = match &modes {
             Modes::Shared(set) => (std::slice::from_ref(set), 1),
@@ -102,7 +102,7 @@ impl Response {
             if set.residues.nrows() != facets * panels {
                 return Err(Error::field("response.residues", "needs as many facets on either panel"));
             }
-            // Without a bounce, even light is even.
+            // Before any bounce, uniform light is uniform.
             let lit = set.residues.rows(source * facets, facets);
             if !lit.column_sum().iter().all(|sum| (sum - 1.0).abs() < 1e-3) {
                 return Err(Error::field(
@@ -114,7 +114,7 @@ impl Response {
         Ok(Self { modes, facets })
     }
 
-    /// The modes behind it.
+    /// The underlying modes.
     #[must_use]
     pub fn modes(&self) -> &Modes {
         &self.modes
@@ -129,13 +129,13 @@ impl Response {
         }
     }
 
-    /// Facets on one panel.
+    /// Number of facets on one panel.
     #[must_use]
     pub fn facets(&self) -> usize {
         self.facets
     }
 
-    /// What `light` gives to each mode on `panel`, in the order of [`Response::poles`].
+    /// Excitations by `light` of each mode on `panel`, in the order of [`Response::poles`].
     #[must_use]
     pub fn excitations(&self, panel: usize, light: ModeLight) -> Vec<Excitation> {
         match &self.modes {
@@ -172,8 +172,8 @@ impl Response {
         }
     }
 
-    /// Irradiance of a facet of `panel` in `light` with all bounces, the panels' reflectances being
-    /// `reflectances`.
+    /// Irradiance of a facet of `panel` in `light`, all bounces included, for these `reflectances` of the
+    /// panels.
     #[must_use]
     pub fn irradiance(&self, panel: usize, facet: usize, light: ModeLight, reflectances: [f64; 2]) -> f64 {
         let (both, r_other) = (reflectances[0] * reflectances[1], reflectances[1 - panel]);
@@ -189,24 +189,24 @@ impl Response {
     }
 }
 
-/// A light as the modes of the panels receive it.
+/// A light on the panels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ModeLight {
     /// Parallel light: irradiance on panel 0 and on panel 1.
     Sun([f64; 2]),
-    /// A uniform sky with this irradiance on an unobstructed plane: each panel gets what the other does not
-    /// hide, `1 − F·1`.
+    /// A uniform sky with this irradiance on an unobstructed plane: each panel receives `1 − F·1` of it, what
+    /// the other does not hide.
     Sky(f64),
 }
 
 impl ModeLight {
-    /// Whether panels that are alike receive unlike light.
+    /// True if identical panels receive different light.
     #[must_use]
     pub fn is_uneven(self) -> bool {
         matches!(self, Self::Sun([on_0, on_1]) if on_0.total_cmp(&on_1).is_ne())
     }
 
-    /// What a mode that both panels share gets on `panel` and on the other.
+    /// Excitations of a mode shared by both panels: by the light on `panel`, and by that on the other.
     fn on_both(self, panel: usize, pole: f64) -> (f64, f64) {
         match self {
             Self::Sun(sun) => (sun[panel], sun[1 - panel]),
@@ -214,7 +214,7 @@ impl ModeLight {
         }
     }
 
-    /// What a mode of the light on panel `source` gets there, and what its twin gets on the other panel.
+    /// Excitations of a mode of panel `source`: by the light there, and by that on the other panel.
     fn on_one(self, source: usize, pole: f64) -> (f64, f64) {
         match self {
             Self::Sun(sun) => (sun[source], 0.0),
@@ -223,10 +223,10 @@ impl ModeLight {
     }
 }
 
-/// Modes of even light on either panel, seen on both, and the residuals.
+/// Modes of uniform light on either panel, with residues on both, and the residuals.
 ///
-/// Light that starts on one panel is on the other after every odd number of bounces. So light of the two
-/// sources is always on different panels, and one product serves both.
+/// Light that starts on one panel is on the other after every odd number of bounces. Light from the two
+/// panels is therefore never on the same panel, and one product serves both.
 fn both_panels<O: PanelOperator>(operator: &O, tolerance: f64) -> Result<[(ModeSet, f64); 2]> {
     let uniform = [0, 1].map(|panel| operator.uniform(panel));
     let middle = uniform[0].len();
@@ -239,7 +239,7 @@ fn both_panels<O: PanelOperator>(operator: &O, tolerance: f64) -> Result<[(ModeS
     let mut residuals = [None; 2];
     for bounce in 0.. {
         let is_running = residuals.map(|residual: Option<f64>| residual.is_none());
-        // Where light of a source is, and where it goes to.
+        // Panels on which the light of a source is, and to which it goes.
         let panels = [0, 1].map(|source| [(source + bounce) % 2, (source + bounce + 1) % 2]);
         let light = runs.each_ref().map(|run| run.last().split_at(middle)).map(|(on_0, on_1)| [on_0, on_1]);
         let mut product = uniform.each_ref().map(|of| vec![0.0; of.len()]);
@@ -284,13 +284,14 @@ fn both_panels<O: PanelOperator>(operator: &O, tolerance: f64) -> Result<[(ModeS
     Ok([of_0, of_1])
 }
 
-/// The parts of a vector that are of either panel.
+/// The parts of a vector on either panel.
 fn halves(x: &mut [f64], middle: usize) -> [&mut [f64]; 2] {
     let (on_0, on_1) = x.split_at_mut(middle);
     [on_0, on_1]
 }
 
-/// Poles of panels that see only each other come in pairs ±g, of which one is enough where they lie apart.
+/// Panels that see only each other have pairs of poles ±g; one of each pair suffices unless they nearly
+/// coincide.
 fn fold_pairs(set: &ModeSet) -> ModeSet {
     let weight = |pole: f64| match pole {
         pole if pole.abs() < NEAR_TWIN => 1.0,

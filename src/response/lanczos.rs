@@ -1,4 +1,4 @@
-//! Lanczos' method: the modes of a symmetric exchange that a light excites.
+//! Lanczos' method: the modes of a symmetric exchange excited by a light.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,27 +7,28 @@ use super::orthogonality::Orthogonality;
 use crate::error::{Error, Result};
 use crate::solve::{Eigen, dot};
 
-/// Most Lanczos steps: an undivided fold of 1° takes about 600.
+/// Maximum number of Lanczos steps: an undivided fold of 1° takes about 600.
 const STEPS_MAX: usize = 1000;
-/// Poles nearer to zero than this count as this far away: a mode so weak does not come back, and its light is
-/// divided by its pole.
+/// Poles nearer to zero are replaced by this value, because their light is divided by the pole. Such weak
+/// modes have no noticeable bounces.
 const LEAST_POLE: f64 = 1e-9;
-/// A surface that keeps all but this share of its light is closed but for rounding.
+/// A surface that loses no more than this share of its light is closed, up to rounding.
 const CLOSED: f64 = 1e-12;
 
-/// A symmetric operator, the light it starts from, and how its vectors are read.
+/// A symmetric operator, the light it starts from, and functions that read its vectors.
 pub struct Excited<A, M> {
     pub start: Vec<f64>,
     pub apply: A,
     /// Facet means of a vector.
     pub means: M,
-    /// Facet means of the light itself where `means` are those of the operator's product with a vector, which
-    /// it knows better.
+    /// Facet means of the light itself, if `means` reads the operator's product with a vector, which is more
+    /// accurate than the vector.
     pub direct: Option<Vec<f64>>,
 }
 
 impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
-    /// Steps until the residual at r = 1 is within `tolerance`; the modes and the residual reached.
+    /// Iterates until the residual at r = 1 is within `tolerance`; returns the modes and the residual
+    /// reached.
     pub fn lanczos(&self, tolerance: f64) -> Result<(ModeSet, f64)> {
         let mut lanczos = Lanczos::new(&self.start, tolerance);
         loop {
@@ -40,7 +41,7 @@ impl<A: Fn(&[f64], &mut [f64]), M: Fn(&[f64]) -> Vec<f64>> Excited<A, M> {
     }
 }
 
-/// The method as far as it has come.
+/// State of the iteration.
 pub struct Lanczos {
     tolerance: f64,
     /// Norm of the light.
@@ -53,7 +54,7 @@ pub struct Lanczos {
 }
 
 impl Lanczos {
-    /// From the light, until the residual at r = 1 is within `tolerance`.
+    /// Starts from the light, and iterates until the residual at r = 1 is within `tolerance`.
     pub fn new(start: &[f64], tolerance: f64) -> Self {
         let norm = dot(start, start).sqrt();
         Self {
@@ -66,15 +67,15 @@ impl Lanczos {
         }
     }
 
-    /// The vector whose product with the operator comes next.
+    /// The vector to be multiplied by the operator next.
     pub fn last(&self) -> &[f64] {
         &self.basis[self.basis.len() - 1]
     }
 
-    /// Takes up that product; the residual if that was the last one.
+    /// Takes that product; returns the residual if it was the last.
     ///
     /// # Errors
-    /// [`Error::Numeric`] if the light does not leave the surface.
+    /// [`Error::Numeric`] if light does not leave the surface.
     pub fn take(&mut self, product: Vec<f64>) -> Result<Option<f64>> {
         let (mut next, last) = (product, self.last());
         let along = dot(last, &next);
@@ -84,7 +85,7 @@ impl Lanczos {
             subtract(&mut next, previous, *length);
         }
         if self.orthogonality.is_lost(&self.diagonal, &self.off_diagonal, dot(&next, &next).sqrt()) {
-            // What is left along the basis is so little that once leaves nothing behind.
+            // The component along the basis is so small that projecting it out once is enough.
             project_out(&mut next, &self.basis);
         }
         let length = dot(&next, &next).sqrt();
@@ -102,11 +103,11 @@ impl Lanczos {
         Ok(None)
     }
 
-    /// Poles are the eigenvalues of the tridiagonal matrix, residues its modes seen as facet means; `direct`
-    /// as in [`Excited`].
+    /// The poles are the eigenvalues of the tridiagonal matrix, the residues its eigenvectors as facet means;
+    /// `direct` as in [`Excited`].
     pub fn modes(&self, means: impl Fn(&[f64]) -> Vec<f64>, direct: Option<&[f64]>) -> ModeSet {
         let means: Vec<_> = self.basis.iter().map(|x| DVector::from_vec(means(x))).collect();
-        // The light starts along the first vector of the basis.
+        // The light is a multiple of the first basis vector.
         let mut rows = DMatrix::from_columns(&means).insert_row(0, 0.0);
         rows[(0, 0)] = self.norm;
         let Eigen { values: poles, vectors } = Eigen::seen(rows, &self.diagonal, &self.off_diagonal);
@@ -123,13 +124,13 @@ impl Lanczos {
     }
 }
 
-/// Removes from `x` its parts along the basis, twice: once leaves rounding behind.
+/// Removes the components of `x` along the basis, twice: once leaves rounding errors behind.
 pub fn orthogonalise(x: &mut [f64], basis: &[Vec<f64>]) {
     project_out(x, basis);
     project_out(x, basis);
 }
 
-/// Removes from `x` its parts along the basis.
+/// Removes the components of `x` along the basis.
 fn project_out(x: &mut [f64], basis: &[Vec<f64>]) {
     for direction in basis {
         let along = dot(x, direction);
@@ -142,10 +143,10 @@ fn subtract(x: &mut [f64], direction: &[f64], along: f64) {
     x.iter_mut().zip(direction).for_each(|(x, d)| *x -= along * d);
 }
 
-/// Modes of `direct + Σ_k r·light_k/(1 − r·pole_k)`, light that modes have thrown on facets.
+/// Modes of `direct + Σ_k r·light_k/(1 − r·pole_k)`, where `light_k` is what mode k sends to the facets.
 ///
-/// `r/(1 − rg) = (1/(1 − rg) − 1)/g`: modes keep their poles, and what does not depend on r is one that does
-/// not bounce, of pole 0.
+/// Since `r/(1 − rg) = (1/(1 − rg) − 1)/g`, the modes keep their poles, and the part independent of r becomes
+/// a mode of pole 0, which does not bounce.
 fn after_a_bounce(direct: &[f64], mut poles: Vec<f64>, light: DMatrix<f64>) -> ModeSet {
     let unbounced = light.ncols();
     let mut residues = light;
@@ -162,10 +163,10 @@ fn after_a_bounce(direct: &[f64], mut poles: Vec<f64>, light: DMatrix<f64>) -> M
     ModeSet { poles, residues }
 }
 
-/// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side; none if a pole is 1
+/// Residual norm of (I − F)x = 1 in the Lanczos basis, relative to the right-hand side; `None` if a pole is 1
 /// or more.
 fn residual_at_one(diagonal: &[f64], off_diagonal: &[f64], next: f64) -> Option<f64> {
-    // LDLᵀ of I − T, carrying the last component of the solution.
+    // LDLᵀ of I − T, tracking the last component of the solution.
     let mut pivot = 1.0 - diagonal[0];
     let mut last = 1.0 / pivot;
     let mut positive = pivot > CLOSED;
@@ -182,8 +183,8 @@ fn residual_at_one(diagonal: &[f64], off_diagonal: &[f64], next: f64) -> Option<
 mod tests {
     use super::*;
 
-    /// The pole of −0.9 stands alone: it is found long before the last step, and rounding would bring it back
-    /// as another.
+    /// The pole −0.9 is isolated: it converges long before the last step, and rounding would introduce it
+    /// again.
     #[test]
     fn vectors_stay_orthogonal_without_being_made_so_every_time() {
         let size = 1500;

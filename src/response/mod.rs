@@ -1,8 +1,8 @@
-//! Light bounced for every reflectance at once.
+//! Interreflections for all reflectances at once.
 //!
 //! With one reflectance r, eq. (16) is `L = (r/π)(I − rK)⁻¹E₀`. Lanczos on K from E₀ turns it into a few
 //! poles and residues, `L = (r/π) Σ A_k/(1 − r g_k)`, the same for every wavelength: eqs. (26) to (28)
-//! without the modes that the light does not excite. A fold's [`Response`] holds those of any light on it.
+//! without the modes that the light does not excite. A [`Response`] holds those of any light on a fold.
 
 mod fold;
 mod lanczos;
@@ -17,10 +17,10 @@ use nalgebra::DMatrix;
 
 use crate::error::{Error, Result};
 
-/// Poles and residues: `Σ_k residue_ik / (1 − r·pole_k)` is what facet i receives.
+/// Poles and residues: facet i receives `Σ_k residue_ik / (1 − r·pole_k)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeSet {
-    /// Poles g, in (−1, 1): shares of its light that a mode hands on.
+    /// Poles g in (−1, 1): the share of its light that a mode passes on.
     pub poles: Vec<f64>,
     /// Facet by pole.
     pub residues: DMatrix<f64>,
@@ -33,7 +33,7 @@ impl ModeSet {
         Self { poles: Vec::new(), residues: DMatrix::zeros(facets, 0) }
     }
 
-    /// Refuses shapes that disagree, and poles with which the bounces would not end.
+    /// Rejects inconsistent shapes, and poles for which the bounces would diverge.
     pub(crate) fn check(&self) -> Result<()> {
         if self.residues.is_empty() || self.residues.ncols() != self.poles.len() {
             let problem = "needs one row per facet, with one number per pole";
@@ -46,7 +46,7 @@ impl ModeSet {
         }
     }
 
-    /// Poles, each with its residue at a facet.
+    /// Poles with their residues at a facet.
     pub(crate) fn of_facet(&self, facet: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.poles.iter().enumerate().map(move |(k, pole)| (*pole, self.residues[(facet, k)]))
     }

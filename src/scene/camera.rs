@@ -1,4 +1,4 @@
-//! How the scene's camera responds to its illuminants.
+//! Response of the scene's camera to its illuminants.
 
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -12,7 +12,7 @@ pub(super) fn illuminant_responses(optics: &Optics) -> Result<Vec<CameraResponse
     optics.illuminants.iter().map(response).collect()
 }
 
-/// The camera's response to the sky, that to the `sun` if the sky has no spectrum of its own.
+/// The camera's response to the sky; its response to the `sun` if the sky has no spectrum of its own.
 pub(super) fn sky_response(optics: &Optics, sun: &CameraResponse) -> Result<CameraResponse> {
     match &optics.sky {
         Some(sky) => sun.to_other_light(&optics.grid, &optics.camera.sensitivities, &sky.power),

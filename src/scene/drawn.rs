@@ -1,4 +1,4 @@
-//! What can be drawn of scenes and samples.
+//! Drawings of scenes and samples.
 
 use super::{FoldSetting, Setting, SurfaceSetting, residuals};
 use crate::camera::CameraResponse;
@@ -11,8 +11,8 @@ use crate::response::ModeLight;
 use crate::spectrum::Spectrum;
 use crate::stream::{EstimateRecord, Sample, Scene, SpectrumRecord};
 
-/// What can be drawn of an estimate of the sample, its colours as under `illuminant` for `observer`. Where
-/// the scene cannot be seen, as one of nothing but a kernel, the spectrum is drawn alone.
+/// The drawing of an estimate of the sample, with colours under `illuminant` for `observer`. Without visible
+/// panels, as for an external kernel, only the spectrum is drawn.
 ///
 /// # Errors
 /// [`crate::Error::Field`] if a part of the scene is missing or does not fit the others.
@@ -43,7 +43,7 @@ pub fn sheet(
     Ok(Sheet { curve, colours, residuals: residuals.transpose()?, panels })
 }
 
-/// sRGB of the facets as the eye sees them, the brightest number being that of the flat sheet.
+/// sRGB of the facets as the eye sees them, scaled so that the largest value is that of the flat sheet.
 fn folded(setting: &Setting, meter: &Colorimeter, reflectance: &[f64]) -> Result<Vec<[f64; 3]>> {
     let eye = CameraResponse::from_weights(meter.screen_weights());
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::MIN_POSITIVE, f64::max);
@@ -53,7 +53,7 @@ fn folded(setting: &Setting, meter: &Colorimeter, reflectance: &[f64]) -> Result
     Ok(facets.row_iter().map(|row| [0, 1, 2].map(|channel| encode_srgb(scale * row[channel]))).collect())
 }
 
-/// Names of the values of a facet: the channels, of several pictures with the illuminants'.
+/// Names of the values of a facet: the channels, combined with the illuminants if there are several pictures.
 fn channels_of_pictures(scene: &Scene, setting: &Setting) -> Result<Vec<String>> {
     let (channels, pictures) = (scene.camera()?.channels, setting.pictures()?);
     if pictures == 1 {
@@ -66,7 +66,7 @@ fn channels_of_pictures(scene: &Scene, setting: &Setting) -> Result<Vec<String>>
 }
 
 impl FoldSetting {
-    /// Row sums of the kernel and direct light of every facet, as exact as the response.
+    /// Row sums of the kernel and direct light of every facet, as accurate as the response.
     #[must_use]
     pub fn facet_light(&self) -> FacetLight {
         let Self { response, light, .. } = self;
@@ -86,10 +86,10 @@ impl FoldSetting {
 }
 
 impl SurfaceSetting<'_> {
-    /// The panels and the direct light on the facets, beside `row_sums` of the kernel.
+    /// The panels and the direct light on the facets, with these `row_sums` of the kernel.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the scene is not whole.
+    /// [`crate::Error::Field`] if the scene is incomplete.
     pub fn facet_light(&self, row_sums: Vec<f64>) -> Result<FacetLight> {
         let responses = self.scene.responses()?;
         let direct = |facet| responses.iter().map(|response| response.irradiance(facet, 0.0)).sum();

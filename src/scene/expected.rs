@@ -1,4 +1,4 @@
-//! What estimates will be worth, before any photograph.
+//! Expected accuracy of estimates, before any photograph is taken.
 
 use crate::estimate::Estimate;
 use crate::estimate::unknowns::Unknown;
@@ -8,12 +8,12 @@ use crate::estimate::unknowns::Unknown;
 pub struct ExpectedError {
     /// Root mean square over the wavelengths, one per estimate.
     reflectance: Vec<f64>,
-    /// Sum of squares of what is fitted along.
+    /// Sums of squares for the fitted parameters.
     fitted: Vec<(&'static Unknown, f64)>,
 }
 
 impl ExpectedError {
-    /// Adds what an estimate says of its error.
+    /// Adds the standard deviations of an estimate.
     pub fn add(&mut self, estimate: &Estimate) {
         let sd = estimate.reflectance_sd().unwrap_or_default();
         let square = sd.iter().map(|sd| sd * sd).sum::<f64>() / sd.len().max(1) as f64;
@@ -26,13 +26,13 @@ impl ExpectedError {
         }
     }
 
-    /// Root mean square error over the wavelengths to expect, one per estimate.
+    /// Expected root mean square error over the wavelengths, one per estimate.
     #[must_use]
     pub fn rmse(&self) -> &[f64] {
         &self.reflectance
     }
 
-    /// Root mean square of the standard deviations of what is fitted along.
+    /// Root mean square of the standard deviations of the fitted parameters.
     #[must_use]
     pub fn fitted_sd(&self) -> Vec<(&'static Unknown, f64)> {
         let count = self.reflectance.len().max(1) as f64;

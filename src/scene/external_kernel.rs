@@ -1,4 +1,4 @@
-//! A kernel that was made elsewhere, as NPY files.
+//! A kernel made by other software, read from NPY files.
 
 use std::path::Path;
 
@@ -8,25 +8,25 @@ use crate::kernel::mesh::Accuracy;
 use crate::stream::{Scene, Surface, read_rows, read_square};
 use crate::surfaces::{DenseExchange, SurfaceResponse};
 
-/// Relative residual of the bounces.
+/// Relative residual of the interreflections.
 const TOLERANCE: f64 = 1e-9;
 
 /// A kernel with its light.
 pub struct ExternalKernel {
     name: String,
-    /// The exchange between the facets, one patch each.
+    /// The exchange between the facets, with one patch each.
     pub exchange: DenseExchange,
     /// Direct light of every source, one number per facet.
     pub sources: Vec<Vec<f64>>,
 }
 
 impl ExternalKernel {
-    /// Reads K, eq. (10), from the file `kernel`: row i, column j, the share of the light of facet i that
-    /// reaches facet j. The file `irradiance` holds direct light, one number per facet, or one row per source
-    /// (1 everywhere if there is none); `areas` those of the facets (by reciprocity if there is none).
+    /// Reads K, eq. (10), from the file `kernel`: row i, column j is the share of the light of facet i that
+    /// reaches facet j. The file `irradiance` holds direct light, one number per facet or one row per source
+    /// (default 1 everywhere), and `areas` the areas of the facets (default: from reciprocity).
     ///
     /// # Errors
-    /// [`Error::File`] or [`Error::Array`] if a file does not hold what it should.
+    /// [`Error::File`] or [`Error::Array`] for unreadable or invalid files.
     pub fn read(kernel: &Path, irradiance: Option<&Path>, areas: Option<&Path>) -> Result<Self> {
         let matrix = read_square(kernel)?;
         let facets = matrix.nrows();
@@ -40,7 +40,7 @@ impl ExternalKernel {
         Ok(Self { name, exchange, sources })
     }
 
-    /// Its scene, bounces solved.
+    /// Its scene with interreflections solved.
     ///
     /// # Errors
     /// As [`SurfaceResponse::solve`].

@@ -1,4 +1,4 @@
-//! The model of a scene of which not all is known.
+//! The model of a scene with unknown parameters.
 
 use std::borrow::Cow;
 
@@ -13,17 +13,16 @@ use crate::estimate::unknowns::{EXPOSURE, FoldInLight, SceneModel, Unknown};
 use crate::stream::{Optics, needs_fold};
 
 impl Setting<'_> {
-    /// The model of facet RGB with the numbers of `fit` unknown, as far as the scene leaves them open.
+    /// The model of facet RGB with the parameters of `fit` unknown, as far as the scene leaves them open.
     ///
     /// # Errors
-    /// As [`Setting::model`]; [`crate::Error::Field`] if the scene is not one in which they can be fitted.
+    /// As [`Setting::model`]; [`crate::Error::Field`] if they cannot be fitted in the scene.
     pub fn model_to_fit(&self, fit: &[&'static Unknown]) -> Result<SceneModel> {
         self.model_to_fit_within(fit, 0.0)
     }
 
-    /// The same, folds of other angles being solved to this relative error of facet means if that is more
-    /// than the scene's: enough to see whether another angle would explain the facets, in a small part of the
-    /// time.
+    /// The same, with folds of other angles solved to this relative error of facet means if it exceeds the
+    /// scene's: enough to see whether another angle would explain the facets, in a fraction of the time.
     ///
     /// # Errors
     /// As [`Setting::model_to_fit`].
@@ -46,7 +45,7 @@ impl Setting<'_> {
             Self::Fold(fold) => (Cow::Borrowed(fold.optics()?), fold.backing),
             Self::Surface(surface) => (Cow::Owned(surface.scene.optics()?), backing(surface.scene)?),
         };
-        // in several lights a sheet sends out several amounts
+        // in several lights a sheet emits different amounts
         Ok(match optics.illuminants.as_slice() {
             [one] => model.under(optics.grid.wavelengths_nm(), &one.power, backing),
             _ => model,
@@ -55,11 +54,12 @@ impl Setting<'_> {
 }
 
 impl FoldSetting {
-    /// The fold in its light, other folds to be solved to `tolerance` or to the scene's.
+    /// The fold in its light; other folds are solved to `tolerance` or the scene's tolerance, whichever is
+    /// larger.
     fn in_light(&self, tolerance: f64) -> Result<FoldInLight> {
         let Optics { grid, camera, illuminants, sky } = self.optics()?;
         let sun = DVector::from_column_slice(&illuminants[0].power);
-        // pictures in other lights have a sun each
+        // pictures in several lights have several suns
         let daylight_vectors = eye::vectors(grid)?;
         let daylight = if illuminants.len() == 1 { Daylight::of(&daylight_vectors, &sun) } else { None };
         Ok(FoldInLight {

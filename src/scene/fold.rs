@@ -1,5 +1,4 @@
-//! A fold under sun and sky: its response, its lights and its camera, with a card of known reflectance if it
-//! has one.
+//! A fold under sun and sky: its response, lights and camera, and a card of known reflectance if it has one.
 
 use super::camera::{illuminant_responses, sky_response};
 use super::stated_light::{StatedLight, StatedSky};
@@ -12,10 +11,10 @@ use crate::kernel::mesh::{Mesh, respond};
 use crate::response::Response;
 use crate::stream::{Optics, Scene};
 
-/// Relative error of the light in a picture: below its noise.
+/// Relative error of the light in a picture, below its noise.
 const PICTURE_TOLERANCE: f64 = 1e-4;
 
-/// A fold under sun and sky, before a camera once one looks at it.
+/// A fold under sun and sky, and in front of a camera once there is one.
 #[derive(Clone, Debug)]
 pub struct FoldSetting {
     /// The fold and its facets.
@@ -24,22 +23,22 @@ pub struct FoldSetting {
     pub angle_sd_deg: Option<f64>,
     /// Sun and sky.
     pub light: Light,
-    /// How the sky is not alike in all directions, if somebody stated one that is not.
+    /// The stated sky, if it is not uniform.
     pub sky: Option<StatedSky>,
-    /// Whether other lights were stated than one sun and one sky.
+    /// True if lights other than one sun and one sky were stated.
     pub is_lit_otherwise: bool,
-    /// What all bounces make of light.
+    /// Response to light, all bounces included.
     pub response: Response,
-    /// Camera and illuminants, if there is one and these are known.
+    /// Camera and illuminants, if there is a camera and the light is known.
     pub optics: Option<Optics>,
-    /// Whether the illuminant is daylight that was assumed, as nobody stated it.
+    /// True if the illuminant is assumed to be daylight, because none was stated.
     pub is_daylight_assumed: bool,
     /// What is behind the sheet.
     pub backing: Backing,
     /// The card that a panel is, if it is one.
     pub card: Option<Card>,
-    /// Relative error to which folds of other angles are solved; none if they are to be divided as this one
-    /// is.
+    /// Relative error to which folds of other angles are solved; `None` if they are to be divided like this
+    /// one.
     pub tolerance: Option<f64>,
 }
 
@@ -49,16 +48,16 @@ pub(super) fn backing(scene: &Scene) -> Result<Backing> {
 }
 
 impl FoldSetting {
-    /// That of a scene's record; of a fold among sources, what a photograph of it is taken to be.
+    /// From a scene's record; a fold among light sources is simplified to what photographs of it assume.
     ///
     /// # Errors
-    /// [`Error::Field`] if it is not that of a fold, or a part of it is missing or impossible.
+    /// [`Error::Field`] if the record is not that of a fold, or a part of it is missing or impossible.
     pub fn of(scene: &Scene) -> Result<Self> {
         Self::with_fold(scene, scene.fold()?)
     }
 
     pub(super) fn with_fold(scene: &Scene, fold: Fold) -> Result<Self> {
-        // where panels are seen, no light is asked for
+        // a fold without a camera or a known light still has panels
         let is_lit = scene.has_camera() && !scene.is_light_unknown()?;
         let is_fine = scene.has_accuracy() && scene.mesh()? == Mesh::Auto.to_string();
         let (StatedLight { light, sky, is_other }, response) = if scene.has_sources() {
@@ -85,7 +84,7 @@ impl FoldSetting {
     /// Camera and illuminants.
     ///
     /// # Errors
-    /// [`Error::Field`] if no camera looks at the fold, or its light is unknown.
+    /// [`Error::Field`] if there is no camera, or the light is unknown.
     pub fn optics(&self) -> Result<&Optics> {
         let missing = || {
             Error::field(
@@ -124,7 +123,7 @@ impl FoldSetting {
         self.model_with(&self.response, &lighting)
     }
 
-    /// The model under `lighting` with other facets, finer than those of the scene, for pictures.
+    /// The model under `lighting` with other facets, finer than the scene's, for pictures.
     ///
     /// # Errors
     /// As [`respond`].
@@ -144,7 +143,7 @@ impl FoldSetting {
     }
 }
 
-/// The card, if a panel is one.
+/// The card in place of a panel, if there is one.
 fn card(scene: &Scene) -> Result<Option<Card>> {
     if !scene.materials()?.is_empty() {
         let problem = "a fold has panels and no groups; say which is known with --panel-reflectance P=SPEC";

@@ -1,4 +1,4 @@
-//! A fold of a sheet that is not Lambertian, seen by a camera from where it stands.
+//! A fold of a sheet that is not Lambertian, seen from the position of a camera.
 
 use nalgebra::{DMatrix, Point3, Vector3};
 use ndarray::{Array2, Axis};
@@ -12,18 +12,18 @@ use crate::kernel::quadrature::Lagrange;
 use crate::sheet::Shape;
 use crate::transport::departures;
 
-/// What a sheet shows beyond a Lambertian one.
+/// The difference between a sheet and a Lambertian one.
 pub struct FoldedSheet {
     shape: Shape,
     nodes: Lagrange,
-    /// What facets have more, facet by node.
+    /// Additional radiance of the facets: facet by node.
     beyond: Array2<f64>,
     camera: CameraResponse,
 }
 
 impl FoldSetting {
-    /// A sheet that reflects like this in this fold, seen from `eye` in the fold's unit, on the facets of the
-    /// scene or on others that are `finer`.
+    /// A sheet of this shape in this fold, seen from `eye` in the fold's unit, on the facets of the scene or
+    /// on `finer` ones.
     ///
     /// # Errors
     /// [`Error::Field`] if the scene has a card, panels of different depth, or more than one light.
@@ -53,11 +53,11 @@ impl FoldedSheet {
         Self { shape, nodes: Lagrange::new(&nodes), beyond, camera }
     }
 
-    /// Albedo of the sheet of this 45:0 reflectance in every waveband.
+    /// Albedo in every waveband of a sheet with this 45:0 reflectance.
     ///
     /// # Errors
-    /// [`Error::Usage`] if no such sheet has it: what its surface reflects is more, or it would send out more
-    /// light than it gets.
+    /// [`Error::Usage`] if no such sheet has it: its surface alone reflects more, or it would reflect more
+    /// light than it receives.
     pub fn albedo(&self, reflectance: &[f64]) -> Result<Vec<f64>> {
         let [slope, offset] = self.shape.slope_and_offset();
         let of = |reflectance: &f64| {
@@ -79,7 +79,8 @@ impl FoldedSheet {
         reflectance.iter().map(of).collect()
     }
 
-    /// What facets have beyond those of a Lambertian sheet of this albedo under the sun: facet by channel.
+    /// Additional values of the facets under the sun compared with a Lambertian sheet of this albedo: facet
+    /// by channel.
     #[must_use]
     pub fn beyond(&self, albedo: &[f64]) -> DMatrix<f64> {
         let (facets, nodes) = self.beyond.dim();

@@ -1,4 +1,4 @@
-//! The scene's panels that are marked in a photograph.
+//! The panels of a scene that are marked in a photograph.
 
 use std::collections::BTreeMap;
 
@@ -10,8 +10,8 @@ use crate::image::{
 };
 use crate::surfaces::Sight;
 
-/// A fold as it was stated, to be compared with corners; the standard deviation of its angle, degrees, is
-/// that of one that somebody measured unless it is known.
+/// The stated fold, for comparison with marked corners. The standard deviation of its angle, degrees,
+/// defaults to that of a usual measurement.
 #[must_use]
 pub fn stated_fold(fold: &Fold, angle_sd_deg: Option<f64>) -> StatedFold {
     StatedFold {
@@ -21,18 +21,18 @@ pub fn stated_fold(fold: &Fold, angle_sd_deg: Option<f64>) -> StatedFold {
     }
 }
 
-/// Panels as the scene has them and as they were marked.
+/// Panels as in the scene and as marked.
 pub struct MarkedPanels<'a> {
     panels: Vec<&'a Panel>,
-    /// As they were marked, in the order of their numbers.
+    /// The marks, in the order of panel numbers.
     pub marked: Vec<Marked>,
 }
 
 impl<'a> MarkedPanels<'a> {
-    /// The panels of a scene whose corners are `marked`, by the panels' numbers.
+    /// The panels of a scene with corners `marked`, by panel number.
     ///
     /// # Errors
-    /// [`Error::Usage`] if no panel is marked, one that the scene does not have, or two in the same place.
+    /// [`Error::Usage`] if no panel is marked, if one is not in the scene, or if two are in the same place.
     pub fn new(scene: &'a BTreeMap<usize, Panel>, marked: &BTreeMap<usize, [Point; 4]>) -> Result<Self> {
         if marked.is_empty() {
             let problem = "there is no panel in it, such as 'panel0'";
@@ -62,9 +62,9 @@ impl<'a> MarkedPanels<'a> {
         self.panels.iter().zip(&self.marked).zip(corners).map(grid).collect()
     }
 
-    /// Whether each facet of the panels is hidden, row by row, by what stands before it: seen from where the
-    /// camera stood for the panels to lie as the `grids`. Panels of one plane do not tell where that was, and
-    /// hide nothing.
+    /// For each facet of the panels, row by row, true if something hides it from the camera, whose position
+    /// follows from the `grids`. Panels of a single plane do not determine that position, and nothing counts
+    /// as hidden.
     #[must_use]
     pub fn hidden(&self, sight: &Sight, grids: &[Grid], lens: Lens) -> Vec<bool> {
         let corners = |(panel, grid): (&&Panel, &Grid)| {
@@ -80,7 +80,7 @@ impl<'a> MarkedPanels<'a> {
         rows.flat_map(|(panel, v)| panel.col_edges.windows(2).map(move |u| hidden(panel, v, u))).collect()
     }
 
-    /// The measured facets where the scene has them among its `count`; those of other panels are not seen.
+    /// Places the measured facets among the `count` facets of the scene; those of other panels are unseen.
     #[must_use]
     pub fn in_scene(&self, measured: Vec<FacetMeasurement>, count: usize) -> Vec<FacetMeasurement> {
         let mut facets = vec![FacetMeasurement::unseen(); count];
@@ -96,10 +96,10 @@ fn unknown(number: usize, scene: &BTreeMap<usize, Panel>) -> Error {
     Error::usage("--panel", problem, format!("its panels are {}", known.join(", ")))
 }
 
-/// Part of a panel's longest side by which marks of one corner may differ.
+/// Tolerance for marks of the same corner, relative to a panel's longest side.
 const SAME_CORNER: f64 = 0.05;
 
-/// Checks that panels which share a corner of the sheet have it marked in one place.
+/// Checks that corners of the sheet shared by several panels are marked in one place.
 fn meet(marked: &[Marked]) -> Result<()> {
     for (n, b) in marked.iter().enumerate() {
         let longest = (0..4).map(|k| distance(b.corners[k], b.corners[(k + 1) % 4])).fold(0.0, f64::max);

@@ -1,21 +1,21 @@
-//! What the camera's settings say of the exposure of a photograph in the sun.
+//! Exposure of a photograph in the sun, inferred from the camera's settings.
 
 use crate::estimate::photograph::priors::Priors;
 use crate::estimate::unknowns::Normal;
 use crate::spectrum::Sun;
 
-/// Illuminance by the sun beyond the atmosphere, klx, and what a clear one takes of its logarithm for each
-/// air mass.
+/// Solar illuminance outside the atmosphere, klx, and the decrease of its logarithm per air mass in a clear
+/// one.
 const BEYOND_KLX: f64 = 127.5;
 const EXTINCTION: f64 = 0.21;
-/// What a clear atmosphere takes varies by as much for each air mass.
+/// Standard deviation of that extinction per air mass.
 const EXTINCTION_SD: f64 = 0.1;
-/// Where the sun stands if nobody says it, degrees from the zenith.
+/// Assumed position of the sun if none is stated, degrees from the zenith.
 const ZENITH_DEG: f64 = 45.0;
 
-/// Logarithm of the value of a perfect white diffuser that faces an unclouded sun, if the camera makes it
-/// `white_per_klx` under 1000 lx, in the light of this `illuminant`. A low sun says less, as its way through
-/// the air is long.
+/// Logarithm of the value of a perfect white diffuser facing an unclouded sun, for a camera that gives it
+/// `white_per_klx` under 1000 lx; a position of the sun is taken from `illuminant`. A low sun is less
+/// certain, as its path through the air is long.
 ///
 /// # Source
 /// Illuminating Engineering Society of North America, *Lighting Handbook*, 9th ed. (2000), chapter 8: direct
@@ -40,8 +40,8 @@ mod tests {
         Normal { mean: mean.exp(), sd }
     }
 
-    /// The sun on a plane that faces it, from tables of clear days: 100 klx at 60° above the horizon, about
-    /// 60 klx at 15°.
+    /// Illuminance on a plane facing the sun, from tables of clear days: 100 klx at 60° above the horizon,
+    /// about 60 klx at 15°.
     #[test]
     fn a_high_sun_gives_a_hundred_thousand_lux() {
         assert!((klx("sun:30deg").mean - 100.0).abs() < 3.0, "{:?}", klx("sun:30deg"));

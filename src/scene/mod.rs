@@ -1,8 +1,7 @@
-//! What the records of a scene mean: a surface in its light before a camera, and the models of it.
+//! The meaning of scene records: a surface in its light before a camera, and models of it.
 //!
 //! [`stream`](crate::stream) reads and writes the records; here they become responses, lights and models.
-//! Whether a scene is a fold, which has formulas of its own, or any other surface is decided by
-//! [`Setting::of`] and nowhere else.
+//! Only [`Setting::of`] decides whether a scene is a fold, which has its own formulas, or another surface.
 
 mod camera;
 mod drawn;
@@ -49,7 +48,7 @@ pub enum Setting<'a> {
 }
 
 impl<'a> Setting<'a> {
-    /// That of a scene's record.
+    /// From a scene's record.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a part of it is missing or impossible.
@@ -63,7 +62,7 @@ impl<'a> Setting<'a> {
     /// Number of facets.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the scene does not say it.
+    /// [`crate::Error::Field`] if the scene does not give it.
     pub fn facets(&self) -> Result<usize> {
         match self {
             Self::Fold(fold) => Ok(2 * fold.fold.facets().len()),
@@ -71,10 +70,10 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// The panels by their numbers: what photographs are measured by.
+    /// The panels by number, in which photographs are measured.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the surface is not one in space.
+    /// [`crate::Error::Field`] if the surface has no shape in space.
     pub fn panels(&self) -> Result<BTreeMap<usize, Panel>> {
         match self {
             Self::Fold(fold) => Ok(fold.fold.panels().into_iter().enumerate().collect()),
@@ -82,7 +81,7 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// The model of facet RGB: of one sheet, or of a sheet and what is known beside it.
+    /// The model of facet RGB, for one sheet or for a sheet together with known parts.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if a part of the scene is missing or does not fit the others.
@@ -93,7 +92,7 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// The same as one `eye` sees it in all lights.
+    /// The same as seen by one `eye` in all lights.
     ///
     /// # Errors
     /// As [`Setting::model`].
@@ -104,7 +103,7 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// The light as a chart beside the surface receives it.
+    /// The light received by a chart next to the surface.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if camera or illuminants are missing or not on the scene's wavelengths.
@@ -115,8 +114,8 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// What is in the order of the model's sources, of what lamps have in their order, the sun being one, and
-    /// skies.
+    /// Arranges values in the order of the model's sources: `lamps` in their own order, where the sun counts
+    /// as a lamp, and `sky` for every sky.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if the sources are missing.
@@ -130,7 +129,7 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// Pictures that are taken of a sample: one under each illuminant, or one under all.
+    /// Number of pictures taken of a sample: one under each illuminant, or one under all.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if illuminants or sources are missing.

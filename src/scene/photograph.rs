@@ -1,5 +1,5 @@
-//! What the facets of a photograph are made of: the fold of the scene, the camera where the corners say it
-//! stood, and all that real sheets and light may add.
+//! Ingredients of the facets of a photograph: the fold of the scene, the camera at the position given by the
+//! corners, and all effects of real sheets and light.
 
 mod ambient;
 mod bins;
@@ -30,28 +30,28 @@ use crate::kernel::bent::{BentExchange, BentFold};
 use crate::response::ModeLight;
 use crate::stream::Sample;
 
-/// Sizes at which changes of the fold are known: more degrees between the panels, as many as somebody may
-/// have erred by, as a share of the angle at most; degrees of bow.
+/// Sizes at which changes of the fold are tabulated: additional degrees between the panels, as large as
+/// plausible errors, but at most a share of the angle; degrees of bow.
 const ANGLES_DEG: [f64; 4] = [-6.0, -2.0, 2.0, 6.0];
 const ANGLE_MOST: f64 = 0.3;
 const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
-/// Depths of a panel over the distance of a lamp.
+/// Panel depth divided by the distance of a lamp.
 const NEARNESSES: [f64; 2] = [0.08, 0.25];
 
-/// Width and height of a photograph that nobody has taken yet, px.
+/// Width and height of a photograph yet to be taken, px.
 const SIZE: [usize; 2] = [640, 480];
 
-/// What of a photograph its parts are made of.
+/// The data of a photograph from which its parts are computed.
 pub struct Picture<'a> {
     /// The facets.
     pub measured: &'a Measured<'a>,
-    /// Where the panels are in it; none if it does not show two.
+    /// Position of the panels in it; `None` if it does not show two.
     pub framing: Option<Framing>,
     /// The exposure, if it is known.
     pub exposure: Option<f64>,
-    /// Whether a chart or a card in it calibrated its numbers.
+    /// True if its values were calibrated by a chart or a card.
     pub by_chart: bool,
-    /// Value of a perfect white diffuser under 1000 lx in it, by the camera's settings, if they are known.
+    /// Value of a perfect white diffuser under 1000 lx, from the camera's settings, if they are known.
     pub white_per_klx: Option<f64>,
 }
 
@@ -59,7 +59,7 @@ impl<'a> Picture<'a> {
     /// The photograph in which the facets of a sample were measured.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the record of the photograph is not one.
+    /// [`crate::Error::Field`] if the photograph's record is invalid.
     pub fn of(sample: &Sample, measured: &'a Measured<'a>, exposure: Option<f64>) -> Result<Self> {
         let by_chart = sample.fields.has("calibration");
         let white_per_klx = sample.white_per_klx()?;
@@ -67,36 +67,36 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// A fold of which photographs are taken.
+/// A fold that is photographed.
 pub struct PhotographedFold<'a> {
     setting: &'a FoldSetting,
     nodes: Vec<f64>,
     priors: &'static Priors,
-    /// Name of a measured sheet that is taken to be unknown.
+    /// Name of a measured sheet that is treated as unknown.
     left_out: Option<String>,
 }
 
 impl<'a> PhotographedFold<'a> {
-    /// That of a scene.
+    /// From a scene.
     #[must_use]
     pub fn of(setting: &'a FoldSetting) -> Self {
         Self { setting, nodes: nodes(NODES), priors: &Priors::USUAL, left_out: None }
     }
 
-    /// The same with one of the [measured sheets](crate::sheet::measured_names) unknown, to see what becomes
-    /// of a sheet that nobody measured.
+    /// The same with one of the [measured sheets](crate::sheet::measured_names) treated as unknown, to test
+    /// sheets that nobody measured.
     #[must_use]
     pub fn leaving_out(self, sheet: &str) -> Self {
         Self { left_out: Some(sheet.to_owned()), ..self }
     }
 
-    /// The same under other priors, to see what that changes.
+    /// The same under other priors, to test their effect.
     #[must_use]
     pub fn believing(self, priors: &'static Priors) -> Self {
         Self { priors, ..self }
     }
 
-    /// The parts of a photograph of which facets were measured, or why there are none.
+    /// The parts of a photograph with measured facets, or the reason why there are none.
     ///
     /// # Errors
     /// [`crate::Error::Field`] if facets or corners do not fit the scene.
@@ -107,12 +107,12 @@ impl<'a> PhotographedFold<'a> {
         }
     }
 
-    /// The parts of a photograph that nobody has taken yet, from where vforward takes its own, its facets as
-    /// the model has them; or why there are none.
+    /// The parts of a photograph yet to be taken, from the viewpoint that vforward uses and with the facets
+    /// of the model; or the reason why there are none.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if facets do not fit the scene, [`crate::Error::Usage`] if the fold cannot be
-    /// seen.
+    /// [`crate::Error::Field`] if facets do not fit the scene, [`crate::Error::Usage`] if the fold is not
+    /// visible.
     pub fn planned(
         &self,
         measured: &Measured,
@@ -207,7 +207,7 @@ impl<'a> PhotographedFold<'a> {
         })
     }
 
-    /// What a lamp does in the place of the sun.
+    /// The effect of a lamp in place of the sun.
     fn near(
         &self,
         bins: &Bins,
@@ -230,7 +230,7 @@ impl<'a> PhotographedFold<'a> {
         BentExchange::new(&bent, &self.setting.fold, view).facet_radiance(sun, &self.nodes)
     }
 
-    /// Radiance of the ideal fold: facet by node.
+    /// Exact radiance of the ideal fold: facet by node.
     fn exact(&self, light: ModeLight) -> Array2<f64> {
         let response = &self.setting.response;
         let facets = response.facets();

@@ -1,5 +1,4 @@
-//! What an estimate leaves of the facets, computed from the records: scene, estimate and what facets were
-//! taken to be worth.
+//! Residuals of an estimate's facets, computed from the records: scene, estimate and the assumed noise.
 
 use nalgebra::DMatrix;
 
@@ -10,15 +9,14 @@ use crate::estimate::unknowns::Unknown;
 use crate::forward::{FacetModel, FacetValues};
 use crate::stream::{EstimateRecord, Sample, Scene};
 
-/// Measured minus estimated facets in units of their standard deviations; none of a sheet that is not taken
+/// Measured minus estimated facets in units of their standard deviations; `None` if the sheet was not assumed
 /// to be ideal.
 ///
 /// # Errors
-/// [`Error::Field`] if estimate and facets do not fit the scene.
+/// [`Error::Field`] if estimate or facets do not fit the scene.
 pub fn residuals(sample: &Sample, estimate: &EstimateRecord, scene: &Scene) -> Result<Option<FacetValues>> {
     let fit: Vec<_> = estimate.fitted().map(|(unknown, _)| unknown).collect();
-    // What is left of a real sheet's facets is compared with an error that is correlated: facet by facet it
-    // says little.
+    // Residuals of a real sheet are judged against a correlated error: facet by facet they say little.
     if fit.iter().any(|unknown| unknown.is_of_photographs()) {
         return Ok(None);
     }
@@ -36,7 +34,7 @@ pub fn residuals(sample: &Sample, estimate: &EstimateRecord, scene: &Scene) -> R
     })))
 }
 
-/// The facets of the estimate, facet by channel.
+/// The estimated facets, facet by channel.
 fn facets(estimate: &EstimateRecord, model: &FacetModel) -> Result<DMatrix<f64>> {
     if estimate.reflectance.len() != model.bands() {
         let problem = format!("{} values for {} wavebands", estimate.reflectance.len(), model.bands());

@@ -1,4 +1,4 @@
-//! What the records of scene and sample say that decides how a spectrum is estimated.
+//! What the records of scene and sample contribute to the choice of an estimate.
 
 use super::{FoldSetting, PhotographedFold, Picture};
 use crate::error::Result;
@@ -12,10 +12,10 @@ use crate::image::Making;
 use crate::spectrum::have_one_peak;
 use crate::stream::{Optics, Sample};
 
-/// With fewer channels no light can be distinguished from another.
+/// With fewer channels, lights cannot be distinguished.
 const COLOURS: usize = 3;
 
-/// Light and camera as they were stated; of daylight that nobody stated `is_daylight_assumed`.
+/// The stated light and camera; `is_daylight_assumed` marks daylight that nobody stated.
 #[must_use]
 pub fn stated(Optics { camera, illuminants, .. }: &Optics, is_daylight_assumed: bool) -> Stated {
     Stated {
@@ -28,7 +28,7 @@ pub fn stated(Optics { camera, illuminants, .. }: &Optics, is_daylight_assumed: 
     }
 }
 
-/// What else the light of a scene may be, if it is one, somebody stated it, and the camera sees colours.
+/// Alternatives to the light of a scene, if it has a single, stated light and the camera sees colours.
 #[must_use]
 pub fn other_lights(
     Optics { grid, camera, illuminants, sky }: &Optics,
@@ -38,12 +38,11 @@ pub fn other_lights(
     (is_stated && camera.sensitivities.len() >= COLOURS).then(|| Others::before(grid, &camera.sensitivities))
 }
 
-/// The photograph in which the facets of a sample were measured, but for those in shadows; of other surfaces
-/// than a `fold` nothing is asked.
+/// The photograph in which the facets of a sample were measured, without those in shadows. Only for a `fold`
+/// does it have parts.
 ///
 /// # Errors
-/// [`crate::Error::Field`] if facets or corners do not fit the scene, or the record of the photograph is not
-/// one.
+/// [`crate::Error::Field`] if facets or corners do not fit the scene, or the photograph's record is invalid.
 pub fn photographed(
     fold: Option<&FoldSetting>,
     sample: &Sample,
@@ -55,7 +54,7 @@ pub fn photographed(
         return Ok(Photographed { making: Making::default(), by_chart, shadows, parts: None });
     };
     let making = sample.making()?;
-    // estimates by sums are those of ideal folds
+    // estimates normalised by sums assume ideal folds
     let parts = if exposure == Exposure::Sum {
         None
     } else {

@@ -1,31 +1,30 @@
-//! Sources around a fold as the light in which a photograph of it is taken: the sun, and a sky that somebody
-//! stated.
+//! The sources around a fold, as the light of a photograph: the sun and a stated sky.
 
 use nalgebra::Vector3;
 
 use crate::error::Result;
 use crate::geometry::{Fold, Light, LightSource};
 
-/// Standard skies up to this type are overcast.
+/// Standard skies up to this type count as overcast.
 const LAST_OVERCAST: usize = 6;
 
-/// Light on a fold as it was stated.
+/// The stated light on a fold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedLight {
-    /// Sun and sky, the latter as if it were alike in all directions.
+    /// Sun and sky, the latter treated as uniform.
     pub light: Light,
-    /// How the sky is not.
+    /// The sky, if it is not uniform.
     pub sky: Option<StatedSky>,
-    /// Whether there are other lights than one sun and one sky, or a sun that leaves a panel in the shade.
+    /// True if there are lights other than one sun and one sky, or a sun that leaves a panel in shade.
     pub is_other: bool,
 }
 
 /// A sky with a horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedSky {
-    /// Whether clouds cover it.
+    /// True if it is covered by clouds.
     pub is_overcast: bool,
-    /// Unit vector to the zenith, in the coordinates of [`Fold::panels`].
+    /// Unit vector towards the zenith, in the coordinates of [`Fold::panels`].
     pub zenith: Vector3<f64>,
 }
 
@@ -36,7 +35,7 @@ impl From<Light> for StatedLight {
 }
 
 impl StatedLight {
-    /// That of these sources.
+    /// From these sources.
     ///
     /// # Errors
     /// As [`Light::new`].
@@ -62,7 +61,7 @@ impl StatedLight {
 }
 
 impl StatedSky {
-    /// Whether somebody said where the zenith is: the default is where the fold opens to.
+    /// True if the zenith was stated; by default it is the direction in which the fold opens.
     pub fn is_zenith_stated(&self) -> bool {
         self.zenith != Vector3::z()
     }
@@ -87,7 +86,7 @@ mod tests {
     use super::*;
     use crate::geometry::{FacetGrid, StandardSky};
 
-    /// What vkernel makes a source of is read as the sun that it was.
+    /// A sun written by vkernel as a source is read back unchanged.
     #[test]
     fn a_source_is_the_sun_that_it_was() {
         let fold = Fold::new(50.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 }).unwrap();

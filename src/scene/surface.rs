@@ -1,4 +1,4 @@
-//! Any surface under its sources: a response to each, with groups of known reflectance if it has some.
+//! Any surface under its sources: a response to each, and groups of known reflectance if it has any.
 
 use super::camera::{illuminant_responses, sky_response};
 use crate::camera::CameraResponse;
@@ -9,13 +9,13 @@ use crate::stream::{Material, Optics, Scene};
 use crate::surfaces::Shape;
 use crate::surfaces::kernel::lit::LitSurface;
 
-/// A surface that is not a fold, under its sources, before a camera.
+/// A surface that is not a fold, or a fold under other sources, before a camera.
 pub struct SurfaceSetting<'a> {
     pub(super) scene: &'a Scene,
 }
 
 impl<'a> SurfaceSetting<'a> {
-    /// That of a scene's record.
+    /// From a scene's record.
     #[must_use]
     pub fn of(scene: &'a Scene) -> Self {
         Self { scene }
@@ -41,12 +41,12 @@ impl<'a> SurfaceSetting<'a> {
         self.scene.sources()
     }
 
-    /// The camera's responses to the sources. Of several illuminants each is that of a source, the skies
-    /// aside, or, where there is one source, that of a picture.
+    /// The camera's responses to the sources. If there are several illuminants, each belongs to a source,
+    /// skies aside, or, with a single source, to a picture.
     ///
     /// # Errors
     /// [`Error::Field`] if camera or illuminants are missing or not on the scene's wavelengths, or if there
-    /// are more than one but not as many illuminants as sources.
+    /// are several illuminants but not one per source.
     pub fn source_responses(&self) -> Result<Vec<CameraResponse>> {
         let sources = self.sources()?;
         let responses = self.lamp_responses(&sources)?;
@@ -54,14 +54,15 @@ impl<'a> SurfaceSetting<'a> {
         self.of_sources(&responses, &sky)
     }
 
-    /// What is in the order of the sources, of what lamps have in their order, over and over, and skies.
+    /// Arranges values in the order of the sources: `lamps` in their own order, repeated, and `sky` for every
+    /// sky.
     pub(super) fn of_sources<T: Clone>(&self, lamps: &[T], sky: &T) -> Result<Vec<T>> {
         let mut of_lamps = lamps.iter().cycle();
         let of = |source: &LightSource| if source.is_sky() { Some(sky) } else { of_lamps.next() };
         Ok(self.sources()?.iter().filter_map(of).cloned().collect())
     }
 
-    /// One response for all sources, or one for each that is no sky.
+    /// One response for all sources, or one for each that is not a sky.
     fn lamp_responses(&self, sources: &[LightSource]) -> Result<Vec<CameraResponse>> {
         let optics = self.scene.optics()?;
         let Optics { grid, camera, illuminants, .. } = &optics;
@@ -77,8 +78,8 @@ impl<'a> SurfaceSetting<'a> {
             );
             return Err(Error::field("illuminants", problem));
         }
-        // Powers are relative: in which amounts the sources light the surface is said of the first one's
-        // strongest channel.
+        // Powers are relative: the amounts of light from the sources refer to the first one's strongest
+        // channel.
         let others = illuminants[1..]
             .iter()
             .map(|illuminant| pictures[0].to_other_light(grid, &camera.sensitivities, &illuminant.power));
@@ -98,7 +99,7 @@ impl<'a> SurfaceSetting<'a> {
         self.model_of(&self.source_responses()?)
     }
 
-    /// The model as one `eye` sees it in all lights.
+    /// The model as seen by one `eye` in all lights.
     ///
     /// # Errors
     /// As [`Setting::model`](super::Setting::model).
@@ -106,7 +107,7 @@ impl<'a> SurfaceSetting<'a> {
         self.model_of(&vec![eye.clone(); self.sources()?.len()])
     }
 
-    /// The model, `cameras` being the responses to the sources.
+    /// The model for these responses to the sources.
     fn model_of(&self, cameras: &[CameraResponse]) -> Result<FacetModel> {
         if self.scene.fields.has("reference_panel") {
             let problem = "panels are those of a fold; say which group is known with --material GROUP=SPEC";
@@ -124,7 +125,7 @@ impl<'a> SurfaceSetting<'a> {
         FacetModel::with_known(&exchange, &parts, cameras)
     }
 
-    /// The surface in its light, divided as its response was solved.
+    /// The surface in its light, with the mesh on which its response was solved.
     ///
     /// # Errors
     /// As [`Scene::shape`] and [`Scene::sources`].
@@ -134,12 +135,12 @@ impl<'a> SurfaceSetting<'a> {
     }
 }
 
-/// Number of sources that are no skies.
+/// Number of sources that are not skies.
 fn lamps(sources: &[LightSource]) -> usize {
     sources.iter().filter(|source| !source.is_sky()).count()
 }
 
-/// The part of every facet: 0 where nothing is known, then one a material.
+/// The part of every facet: 0 where nothing is known, then one number per material.
 fn part_of_facets(shape: &Shape, materials: &[Material]) -> Result<Vec<usize>> {
     let mut part_of = vec![0; shape.len()];
     for (n, material) in materials.iter().enumerate() {

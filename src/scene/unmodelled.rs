@@ -1,11 +1,11 @@
-//! Folds of which sheets that are not ideal are not modelled.
+//! Folds for which only ideal sheets are modelled.
 
 use super::FoldSetting;
 use crate::error::{Error, Result};
 use crate::estimate::photograph::Unmodelled;
 
 impl Unmodelled {
-    /// The field of the scene or sample that says so.
+    /// The field of the scene or sample responsible.
     fn field(self) -> &'static str {
         match self {
             Self::Card => "reference_panel",
@@ -17,7 +17,7 @@ impl Unmodelled {
         }
     }
 
-    /// The error of a scene that asks for such a sheet all the same.
+    /// The error for a scene that requests another sheet all the same.
     pub(super) fn refused(self) -> Error {
         Error::field(
             self.field(),
@@ -27,7 +27,7 @@ impl Unmodelled {
 }
 
 impl FoldSetting {
-    /// What of the scene keeps its sheet an ideal one, if anything does.
+    /// The property of the scene that allows only ideal sheets, if there is one.
     pub(super) fn unmodelled(&self) -> Result<Option<Unmodelled>> {
         let all = [
             (self.card.is_some(), Unmodelled::Card),

@@ -1,32 +1,31 @@
-//! The angles that an isotropic reflection depends on.
+//! The angles that determine an isotropic reflection.
 
 use nalgebra::Vector3;
 
 use super::fresnel::fresnel;
 use super::place::Place;
 
-/// Least cosine of incidence and exit: below it fits and lobes grow without bounds.
+/// Smallest cosine of incidence and exit: below it fits and lobes grow without bound.
 const COS_MIN: f64 = 1e-3;
 
-/// How light comes to a sheet and leaves it.
+/// Directions in which light arrives at a sheet and leaves it.
 #[derive(Clone, Copy, Debug)]
 pub struct Angles {
-    /// Cosine between the normal and where the light comes from, (0, 1].
+    /// Cosine between the normal and the direction towards the light, (0, 1].
     pub cos_in: f64,
-    /// Cosine between the normal and where it goes, (0, 1].
+    /// Cosine between the normal and the direction towards the eye, (0, 1].
     pub cos_out: f64,
-    /// Cosine between both directions.
+    /// Cosine between the two directions.
     pub cos_between: f64,
-    /// Where a table has them.
+    /// Position in the grid of a table.
     pub(super) place: Place,
-    /// What a smooth surface reflects of light that comes in, that leaves, and of light that its facets
-    /// mirror from one to the other.
+    /// Fresnel reflectance for incoming and for outgoing light, and for light mirrored by microfacets from
+    /// one direction to the other.
     pub(super) fresnel: [f64; 3],
 }
 
 impl Angles {
-    /// Those of two directions of length 1 away from the sheet, z along its normal: towards the light and
-    /// towards the eye.
+    /// From unit vectors towards the light and towards the eye, with z along the normal of the sheet.
     ///
     /// # Example
     /// ```
@@ -49,15 +48,15 @@ impl Angles {
         }
     }
 
-    /// Light from 45 degrees, seen from above, as spectrophotometers have it.
+    /// Light from 45 degrees, seen along the normal, as in spectrophotometers.
     #[must_use]
     pub fn instrument() -> Self {
         let half = 0.5_f64.sqrt();
         Self::new(&Vector3::new(half, 0.0, half), &Vector3::z())
     }
 
-    /// Product of the directions' parts along the sheet: sines of both angles times the cosine of the azimuth
-    /// between them.
+    /// Dot product of the directions' projections onto the sheet: the sines of both angles times the cosine
+    /// of the azimuth between them.
     #[must_use]
     pub fn along_sheet(&self) -> f64 {
         self.cos_between - self.cos_in * self.cos_out

@@ -1,32 +1,31 @@
-//! Reflection of sheets by a few numbers: a rough or fuzzy body under a rough surface.
+//! Parametric reflection of sheets: a rough or fibrous body under a rough surface.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use super::angles::Angles;
 use super::fresnel::FRESNEL_MEAN;
 
-/// How steeply sheen rises towards grazing angles.
+/// Exponent of the increase of sheen towards grazing angles.
 const SHEEN_POWER: i32 = 3;
 
-/// A body, colour of its own, under a colourless surface.
+/// A coloured body under a colourless surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Family {
     /// Standard deviation of the body's slopes, degrees (Oren and Nayar); 0: Lambertian.
     pub body_roughness_deg: f64,
-    /// Share of the reflection that a closed surface of index 1.5 would have, [0, 1] and a little more.
+    /// Strength of the surface reflection, 1 for a closed surface of index 1.5: [0, 1] or slightly more.
     pub specular_weight: f64,
-    /// Roughness of that surface, (0, 1]: the parameter of the GGX distribution.
+    /// Roughness of that surface, (0, 1]: α of the GGX distribution.
     pub roughness: f64,
-    /// Sheen: brightening of the body at grazing incidence or viewing, by fibres that stand up, as those of
-    /// felt.
+    /// Sheen: brightening of the body at grazing incidence or viewing, caused by upright fibres, as in felt.
     pub sheen: f64,
 }
 
-/// What evaluating a [`Family`] needs, worked out once.
+/// Precomputed values for evaluating a [`Family`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Terms {
     family: Family,
-    /// The two numbers of Oren and Nayar's qualitative model.
+    /// The two coefficients of Oren and Nayar's qualitative model.
     even: f64,
     towards_light: f64,
 }
@@ -41,7 +40,7 @@ impl Terms {
         }
     }
 
-    /// Body and surface, 1/sr, neither normalised.
+    /// Body and surface, 1/sr, not normalised.
     ///
     /// # Source
     /// M. Oren, S. Nayar, SIGGRAPH 1994, eq. (30); B. Walter et al., EGSR 2007, for GGX and its shadowing.
@@ -59,10 +58,11 @@ impl Terms {
         body *= (1.0 - specular_weight * of_in) * (1.0 - specular_weight * of_out)
             / (1.0 - specular_weight * FRESNEL_MEAN);
         let square = self.family.roughness * self.family.roughness;
-        // of the half vector to the normal
+        // between half vector and normal
         let cos_half = 0.5_f64.sqrt() * (cos_in + cos_out) / (1.0 + cos_between).max(1e-12).sqrt();
         let slopes = square / (PI * (cos_half * cos_half * (square - 1.0) + 1.0).powi(2));
-        // 2 cos / (1 + Λ) of Smith's shadowing: the cosines cancel those of the reflection's 4 cos cos
+        // 2 cos / (1 + Λ) of Smith's shadowing; the cosines cancel the 4 cos cos in the denominator of the
+        // reflection
         let shadow = |cos: f64| 1.0 / (cos + (square + (1.0 - square) * cos * cos).sqrt());
         [body, specular_weight * slopes * of_facets * shadow(cos_in) * shadow(cos_out)]
     }

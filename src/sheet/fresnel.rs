@@ -1,8 +1,8 @@
-//! What a smooth surface mirrors.
+//! Fresnel reflection of a smooth surface.
 
 /// Refractive index of the surface.
 const INDEX: f64 = 1.5;
-/// Mean Fresnel reflectance of an index of 1.5 over cosine-weighted directions.
+/// Mean Fresnel reflectance at index 1.5 over cosine-weighted directions.
 pub(super) const FRESNEL_MEAN: f64 = 0.091_777_959_342;
 
 /// Reflectance of a smooth surface of index 1.5 in unpolarised light.

@@ -1,4 +1,4 @@
-//! The measured sheets that are built in.
+//! The built-in measured sheets.
 
 use std::sync::OnceLock;
 
@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 const NAMES: &str = include_str!("../../share/sheet-shapes.txt");
 const TABLES: &[u8] = include_bytes!("../../share/sheet-shapes.npy");
 
-/// Shapes of measured sheets: papers, felts, card, a leaf, cloth, flat paints; in the order of
+/// Shapes of measured sheets (papers, felts, card, a leaf, cloth, flat paints), in the order of
 /// [`measured_names`].
 ///
 /// # Errors

@@ -1,10 +1,9 @@
-//! How a sheet reflects: a coloured body and a colourless surface, both with a shape of their own over the
-//! directions.
+//! The reflection of a sheet: a coloured body and a colourless surface, each with its own angular shape.
 //!
-//! `f(a) = (a − s)/b · B + S`, 1/sr: `a` the sheet's albedo in a waveband, that is its reflectance averaged
-//! over cosine-weighted directions of incidence and exit; `B` the body, normalised to `π·B = 1` for light
-//! from 45 degrees seen from above; `S` the surface, 0 there; `b` and `s` their own albedos. What a
-//! spectrophotometer of that geometry says is then `ρ = (a − s)/b`.
+//! `f(a) = (a − s)/b · B + S`, 1/sr, where `a` is the sheet's bihemispherical albedo in a waveband (its
+//! reflectance averaged over cosine-weighted directions of incidence and exit), `B` the body, normalised to
+//! `π·B = 1` at 45°:0°, `S` the surface, 0 there, and `b` and `s` their albedos. The 45°:0° reflectance
+//! factor, as a spectrophotometer measures it, is then `ρ = (a − s)/b`.
 
 mod angles;
 mod family;
@@ -26,21 +25,21 @@ use family::Terms;
 pub use measured::{measured, measured_names};
 use table::Table;
 
-/// Nodes of the cosines and of the azimuth over which albedos are integrated.
+/// Quadrature nodes in the cosines and the azimuth for albedos.
 const COSINES: usize = 20;
 const AZIMUTHS: usize = 16;
 
-/// The shape of a sheet's reflection over the directions, whatever its colour.
+/// The angular shape of a sheet's reflection, independent of its colour.
 #[derive(Clone, Debug)]
 pub struct Shape {
     parts: Parts,
-    /// Body and surface at 45:0 before they are normalised, times π.
+    /// Body and surface at 45:0 before normalisation, times π.
     instrument: [f64; 2],
     /// Albedos of the normalised body and surface.
     albedos: [f64; 2],
 }
 
-/// Where body and surface come from.
+/// The source of body and surface.
 #[derive(Clone, Debug)]
 enum Parts {
     Family(Terms),
@@ -58,7 +57,7 @@ impl From<Family> for Shape {
 }
 
 impl Shape {
-    /// That of a perfectly matt sheet.
+    /// The shape of a perfectly matte sheet.
     #[must_use]
     pub fn lambertian() -> Self {
         Self {
@@ -75,7 +74,7 @@ impl Shape {
         shape
     }
 
-    /// Body and surface, 1/sr: `π·B` is 1 and `S` is 0 for light from 45 degrees seen from above.
+    /// Body and surface, 1/sr: `π·B` is 1 and `S` is 0 at 45°:0°.
     ///
     /// # Example
     /// ```
@@ -91,7 +90,7 @@ impl Shape {
         [body, surface - self.instrument[1] * body]
     }
 
-    /// What the body counts for in a sheet of this albedo, which is also its 45:0 reflectance.
+    /// Weight of the body in a sheet of this albedo, which is also its 45°:0° reflectance factor.
     ///
     /// # Example
     /// ```
@@ -104,14 +103,14 @@ impl Shape {
         slope * albedo + offset
     }
 
-    /// Slope and offset of the 45:0 reflectance as a function of the albedo.
+    /// Slope and offset of the 45°:0° reflectance factor as a function of the albedo.
     #[must_use]
     pub fn slope_and_offset(&self) -> [f64; 2] {
         let [body, surface] = self.albedos;
         [1.0 / body, -surface / body]
     }
 
-    /// The reflection of a sheet of this albedo, 1/sr.
+    /// BRDF of a sheet of this albedo, 1/sr.
     #[must_use]
     pub fn brdf(&self, albedo: f64, angles: &Angles) -> f64 {
         let [body, surface] = self.at(angles);
@@ -139,10 +138,10 @@ fn bihemispherical(reflections: impl Fn(&Angles) -> [f64; 2]) -> [f64; 2] {
     sums
 }
 
-/// All directions of incidence and exit, with their shares of the albedo.
+/// All pairs of directions of incidence and exit, with their weights in the albedo.
 static HEMISPHERES: LazyLock<Vec<(Angles, f64)>> = LazyLock::new(|| {
     let rule = Rule::gauss_legendre(COSINES);
-    // in the square of the cosine the weight is even
+    // in the square of the cosine the weight is constant
     let cosines: Vec<(f64, f64)> =
         rule.on(0.0, 1.0).map(|(square, weight)| (square.sqrt(), weight)).collect();
     let azimuths: Vec<f64> = (0..AZIMUTHS).map(|k| PI * (k as f64 + 0.5) / AZIMUTHS as f64).collect();
@@ -153,7 +152,7 @@ static HEMISPHERES: LazyLock<Vec<(Angles, f64)>> = LazyLock::new(|| {
     let mut all = Vec::with_capacity(COSINES * (COSINES + 1) / 2 * AZIMUTHS);
     for (n, &(cos_in, weight_in)) in cosines.iter().enumerate() {
         let from = direction(cos_in, 0.0);
-        // reciprocity: half of the pairs are enough
+        // by reciprocity half of the pairs suffice
         for (m, &(cos_out, weight_out)) in cosines[..=n].iter().enumerate() {
             let pairs = if m == n { 1.0 } else { 2.0 };
             let weight = pairs * weight_in * weight_out * PI / AZIMUTHS as f64;
@@ -191,8 +190,8 @@ mod tests {
         }
     }
 
-    /// Under light from everywhere a white sheet of albedo 1 sends out no more than it gets, within what is
-    /// lost to rough slopes.
+    /// The bihemispherical albedo is the one asked for, and from no direction is more light reflected than
+    /// arrives (except by sheen).
     #[test]
     fn albedos_are_what_is_asked_for() {
         for family in families() {

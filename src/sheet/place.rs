@@ -1,21 +1,21 @@
-//! Where two directions lie in the grid of a table.
+//! Position of two directions in the grid of a table.
 
 use std::sync::LazyLock;
 
-/// Nodes of the angles of incidence and exit and of the azimuth between the directions.
+/// Grid nodes in the angles of incidence and exit, and in the azimuth between the directions.
 pub(super) const ANGLES: usize = 20;
 pub(super) const AZIMUTHS: usize = 16;
-/// Last of the angles, degrees: what grazes more counts as this.
+/// Largest angle, degrees; more grazing directions are clamped to it.
 pub(super) const STEEPEST_DEG: f64 = 86.0;
 /// Body and surface.
 pub(super) const PARTS: usize = 2;
 
-/// A place in the grid of a table.
+/// A position in the grid of a table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
-    /// First number of the cell.
+    /// Index of the first number of the cell.
     pub(super) first: u32,
-    /// How far into the cell: angles of incidence and exit, azimuth.
+    /// Position within the cell: angles of incidence and exit, azimuth.
     pub(super) into: [f32; 3],
 }
 
@@ -31,19 +31,19 @@ impl Place {
     }
 }
 
-/// Nodes of angles and azimuths as shares of their ranges: narrow towards grazing angles and the mirror's
+/// Nodes of angles and azimuths as fractions of their ranges, denser towards grazing angles and the mirror
 /// direction.
 static NODES: LazyLock<([f64; ANGLES], [f64; AZIMUTHS])> = LazyLock::new(|| (nodes(), nodes()));
 
-/// `1 − (1 − x)^1.5`, x even from 0 to 1.
+/// `1 − (1 − x)^1.5` with x evenly spaced from 0 to 1.
 fn nodes<const N: usize>() -> [f64; N] {
     std::array::from_fn(|k| 1.0 - (1.0 - k as f64 / (N - 1) as f64).powf(1.5))
 }
 
-/// The cell of a share of the range, and how far into it.
+/// The cell that contains a fraction of the range, and the position within it.
 fn cell<const N: usize>(share: f64, nodes: &[f64; N]) -> (usize, f32) {
     let share = share.min(1.0);
-    // of few nodes it is faster to compare all than to search
+    // with so few nodes, comparing all is faster than searching
     let low = nodes[1..N - 1].iter().filter(|node| **node <= share).count();
     (low, ((share - nodes[low]) / (nodes[low + 1] - nodes[low])) as f32)
 }

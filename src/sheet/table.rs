@@ -1,4 +1,4 @@
-//! Reflection of measured sheets, as a table over the directions.
+//! Reflection of measured sheets, tabulated over the directions.
 //!
 //! Fits of measured materials (A. Sztrajman et al., "Neural BRDF representation and importance sampling",
 //! Computer Graphics Forum 2021; the measurements: J. Dupuy, W. Jakob, SIGGRAPH Asia 2018, and J. Nielsen et
@@ -14,7 +14,7 @@ use super::place::{ANGLES, AZIMUTHS, PARTS, Place};
 pub(super) struct Table(Arc<[f32]>);
 
 impl Table {
-    /// The table whose angle of exit is nowhere beyond that of incidence, completed by reciprocity.
+    /// Completes, by reciprocity, a table in which the angle of exit never exceeds that of incidence.
     pub(super) fn of_half(half: &[f32]) -> Self {
         let row = PARTS * AZIMUTHS;
         let mut table = vec![0.0; ANGLES * ANGLES * row];

@@ -2,7 +2,7 @@
 
 use nalgebra::DVectorView;
 
-/// Dot product of two vectors of one length.
+/// Dot product of two vectors of equal length.
 ///
 /// # Example
 /// ```

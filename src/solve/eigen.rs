@@ -1,25 +1,25 @@
 //! Eigenvalues and eigenvectors of symmetric matrices.
 //!
-//! By the QL method with implicit shifts. `nalgebra::SymmetricEigen` (0.33) is not right for some matrices,
-//! tridiagonal ones with small entries among them: a test below holds one against it.
+//! By the QL method with implicit shifts. `nalgebra::SymmetricEigen` (0.33) is wrong for some matrices,
+//! tridiagonal ones with small entries among them, as a test below shows.
 
 use nalgebra::DMatrix;
 use nalgebra::linalg::SymmetricTridiagonal;
 
-/// Iterations for one eigenvalue; two or three are usual.
+/// Iterations per eigenvalue; two or three are usual.
 const ITERATION_LIMIT: usize = 100;
 
-/// Eigenvalues, in no order, and eigenvectors as columns in the same order.
+/// Eigenvalues, unordered, and eigenvectors as columns in the same order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Eigen {
     /// Eigenvalues.
     pub values: Vec<f64>,
-    /// Eigenvectors, or what was asked for of them.
+    /// Eigenvectors, or their product with the rows given.
     pub vectors: DMatrix<f64>,
 }
 
 impl Eigen {
-    /// Of the tridiagonal matrix with this `diagonal` and the entries `off_diagonal` it, one fewer.
+    /// For the tridiagonal matrix with this `diagonal` and this `off_diagonal`, which is one entry shorter.
     ///
     /// # Source
     /// EISPACK, `tql2`; Golub and Van Loan, *Matrix Computations*, section 8.3.
@@ -36,8 +36,8 @@ impl Eigen {
         Self::seen(DMatrix::identity(diagonal.len(), diagonal.len()), diagonal, off_diagonal)
     }
 
-    /// As [`Eigen::of_tridiagonal`], with the product of `rows` and the eigenvectors in place of these: fewer
-    /// rows take less time.
+    /// As [`Eigen::of_tridiagonal`], with the product of `rows` and the eigenvectors in place of the latter:
+    /// fewer rows take less time.
     ///
     /// # Example
     /// ```
@@ -66,10 +66,10 @@ impl Eigen {
         Self { values: ql.diagonal, vectors: ql.vectors }
     }
 
-    /// Of a symmetric matrix, of which the lower triangle is read.
+    /// For a symmetric matrix, of which only the lower triangle is read.
     ///
     /// # Panics
-    /// If the matrix has no entry.
+    /// If the matrix is empty.
     #[must_use]
     pub fn of_symmetric(matrix: DMatrix<f64>) -> Self {
         let (turned, diagonal, off_diagonal) = SymmetricTridiagonal::new(matrix).unpack();
@@ -85,7 +85,7 @@ struct Ql {
 }
 
 impl Ql {
-    /// The end of the block that starts at `first`; none if that is a block by itself.
+    /// The end of the block that starts at `first`; `None` if that row is a block of its own.
     fn block(&self, first: usize, negligible: f64) -> Option<usize> {
         let rest = self.off_diagonal[first..].iter().take_while(|e| e.abs() > negligible).count();
         (rest > 0).then_some(first + rest)
@@ -103,7 +103,7 @@ impl Ql {
             let r = f64::hypot(f, g);
             e[i + 1] = r;
             if r == 0.0 {
-                // The block falls apart here.
+                // The block splits here.
                 d[i + 1] -= shift;
                 e[last] = 0.0;
                 return;
@@ -122,7 +122,7 @@ impl Ql {
     }
 }
 
-/// Turns columns `i` and `i + 1`.
+/// Rotates columns `i` and `i + 1`.
 fn rotate(vectors: &mut DMatrix<f64>, i: usize, sin: f64, cos: f64) {
     let rows = vectors.nrows();
     let (left, right) = vectors.as_mut_slice()[i * rows..][..2 * rows].split_at_mut(rows);
@@ -147,7 +147,7 @@ mod tests {
         })
     }
 
-    /// The reason for this file; when this fails, nalgebra can take over.
+    /// The reason for this file; when this test fails, nalgebra can take over.
     #[test]
     fn nalgebra_is_wrong_where_this_is_right() {
         let mut random = ChaCha8Rng::seed_from_u64(1);
@@ -167,7 +167,7 @@ mod tests {
         assert!(ours < 1e-14 && theirs > 1e-6, "{ours:e} {theirs:e}");
     }
 
-    /// Entries of all sizes, zeros among them.
+    /// Entries of all magnitudes, including zeros.
     fn entries(count: usize) -> impl Strategy<Value = Vec<f64>> {
         prop::collection::vec(
             prop_oneof![Just(0.0), (-6.0..0.0).prop_map(|x| 10_f64.powf(x)), -1.0..1.0],

@@ -1,10 +1,10 @@
-//! What a further search would bring, by the model linear about a point: no search is made.
+//! Predicts the gain of a further search from the model linearised about a point, without searching.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::posterior::{Model, Solution, cost, gauss_newton};
 
-/// About a maximum, how much more probable data become where the model may move in one more way.
+/// At a mode, predicts how much more probable the data become if the model has one more degree of freedom.
 ///
 /// # Source
 /// The score test: C. R. Rao, *Mathematical Proceedings of the Cambridge Philosophical Society* 44 (1948), p.
@@ -17,7 +17,7 @@ pub struct ScoreTest<'a> {
 }
 
 impl<'a> ScoreTest<'a> {
-    /// About a solution, the noise `tempering` times its size; none if the model is not finite.
+    /// At a solution, with the noise scaled by `tempering`; `None` if the model is not finite.
     #[must_use]
     pub fn at<S>(solution: &'a Solution<S>, tempering: f64) -> Option<Self> {
         let (weight, at) = (tempering.powi(-2), &solution.at);
@@ -25,15 +25,15 @@ impl<'a> ScoreTest<'a> {
         Some(Self { weight, residuals: &at.residuals, jacobian: &at.jacobian, information })
     }
 
-    /// Logarithm of how many times as probable the maximum becomes where the model may move along `change`,
-    /// too, as far as it likes: 0 where the data would have it move the other way.
+    /// Logarithm of the factor by which the mode becomes more probable if the model may also move along
+    /// `change`, by any positive amount: 0 if the data favour the opposite direction.
     #[must_use]
     pub fn ln_gain_along(&self, change: &DVector<f64>) -> f64 {
         let slope = self.slope(change);
         if slope <= 0.0 { 0.0 } else { ln_gain(slope, self.bend(change), 0.0) }
     }
 
-    /// The same where it moves by so many times the change at least, which the data may be against.
+    /// The same for moves of at least `least` times the change, which the data may oppose.
     #[must_use]
     pub fn ln_gain_by(&self, least: f64, change: &DVector<f64>) -> f64 {
         ln_gain(self.slope(change), self.bend(change), least)
@@ -49,13 +49,14 @@ impl<'a> ScoreTest<'a> {
     }
 }
 
-/// What is gained at the best of all moves of at least so many times a change.
+/// Gain of the best move of at least `least` times a change.
 fn ln_gain(slope: f64, bend: f64, least: f64) -> f64 {
     let times = if bend > 0.0 { (slope / bend).max(least) } else { least };
     times * (slope - 0.5 * times * bend)
 }
 
-/// Twice what is minimised, at the minimum of the model linear about `w`; none if the model is not finite.
+/// Twice the minimum of the objective, predicted from the model linearised about `w`; `None` if the model is
+/// not finite.
 pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, tempering: f64) -> Option<f64> {
     let (at, weight) = (model.linearise(w), tempering.powi(-2));
     let descent = weight * at.jacobian.tr_mul(&at.residuals) - w;

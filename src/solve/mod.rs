@@ -1,4 +1,5 @@
-//! Solvers: eigenvalues, and smooth problems with a Gaussian prior; nothing here knows of optics or colour.
+//! Solvers: eigenvalues, and smooth problems with a Gaussian prior; nothing here knows about optics or
+//! colour.
 
 mod dot;
 mod eigen;
@@ -11,17 +12,17 @@ pub use eigen::Eigen;
 /// Why a solver stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Termination {
-    /// The optimality conditions hold to the asked tolerance.
+    /// The optimality conditions hold to the required tolerance.
     Converged {
-        /// What is left of them: the norm of the gradient, or the largest violation under bounds.
+        /// Their residual: the norm of the gradient, or the largest violation under bounds.
         gradient_norm: f64,
     },
-    /// The limit on iterations came first.
+    /// The iteration limit was reached.
     IterationLimit,
-    /// No step along the search direction lowered the cost any more, where rounding is reached, or none would
+    /// No step along the search direction lowered the cost any further, because of rounding, or none would
     /// lower it enough.
     NoProgress {
-        /// What is left of the gradient.
+        /// Norm of the remaining gradient.
         gradient_norm: f64,
     },
 }

@@ -1,12 +1,13 @@
-//! The maximum of a Gaussian prior times a Gaussian likelihood of a nonlinear model, by Newton's method.
+//! The posterior mode of a nonlinear model with Gaussian prior and Gaussian noise, by Newton's method.
 //!
-//! Minimises `½|ρ(w)|² + ½|w|²`, the unknowns w being standard normal under the prior. Data a million times
-//! as large as their noise are constraints, and their residuals far from the minimum say nothing of the
-//! curvature along them. So the second derivatives are weighted as in sequential quadratic programming, with
-//! multipliers: the residuals that the linearised model leaves, `I + JᵀJ − Σ (ρ − Jδ)ᵢ∇²mᵢ`. A step that the
-//! constraints' curvature spoils is corrected to second order. The step is solved for itself, in the space of
-//! the unknowns: the system in the space of the data (Tarantola, *Inverse Problem Theory*, 2005, section
-//! 3.2.3) gives the next iterate whole, and the step as a small difference of large vectors loses its digits.
+//! Minimises `½|ρ(w)|² + ½|w|²`, where the unknowns w are standard normal under the prior. Data a million
+//! times as large as their noise act as constraints, and their residuals far from the minimum say nothing
+//! about the curvature along them. Second derivatives are therefore weighted by multipliers as in sequential
+//! quadratic programming, namely the residuals of the linearised model: `I + JᵀJ − Σ (ρ − Jδ)ᵢ∇²mᵢ`. A step
+//! spoilt by the curvature of constraints gets a second-order correction. The system is solved for the step,
+//! in the space of the unknowns: the one in the space of the data (Tarantola, *Inverse Problem Theory*, 2005,
+//! section 3.2.3) yields the whole next iterate, and the step, as a small difference of large vectors, loses
+//! its digits.
 //!
 //! ## Reference
 //! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 10.3, 18.1 and 18.3.
@@ -17,95 +18,95 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::Termination;
 
-/// The noise is first taken for this share of the residual at the start.
+/// Initial noise as a share of the residual at the start.
 const FIRST_SHARE: f64 = 0.3;
-/// Factor by which the noise falls from stage to stage, the root of ten: a tenth releases so many coordinates
-/// at once that the next stage may set out far off the valley that precise data cut.
+/// Factor by which the noise falls from stage to stage, the root of ten. A tenth would release so many
+/// coordinates at once that the next stage may start far from the valley cut by precise data.
 const STAGE: f64 = 3.162_277_660_168_379_5;
-/// Most steps at each tempering of the noise, and the gradient in the metric of the Hessian that ends a stage
-/// earlier.
+/// Maximum number of steps at each tempering of the noise, and the norm of the gradient, in the metric of the
+/// Hessian, that ends a stage earlier.
 const STEPS_A_STAGE: u32 = 60;
 const END_OF_STAGE: f64 = 1.0;
-/// Longest step, in standard deviations of the prior: further out the model is not the one that was
-/// linearised.
+/// Longest step, in standard deviations of the prior: the linearisation does not hold beyond.
 const LONGEST: f64 = 10.0;
-/// Most trials of a step; first damping, and its factors after a failure and after a success.
+/// Maximum number of trials of a step; initial damping, and its factors after a failure and after a success.
 const TRIALS: usize = 14;
 const DAMPING: f64 = 0.1;
 const DAMPING_UP: f64 = 5.0;
 const DAMPING_DOWN: f64 = 0.1;
 const DAMPING_LEAST: f64 = 1e-3;
-/// Where curvature is left out, the share of what a step promised from which damping falls after it, and the
-/// one below which it rises (Nocedal and Wright, section 4.1, of the radius of a trust region).
+/// Where curvature is left out, damping falls after a step that achieves more than the first of these shares
+/// of the predicted decrease, and rises after one that achieves less than the second (Nocedal and Wright,
+/// section 4.1, for the radius of a trust region).
 const KEPT_WELL: f64 = 0.75;
 const KEPT_BADLY: f64 = 0.25;
-/// The least that a damped step must promise, relative to what the last step may: where the model has a kink,
-/// or its derivatives are differences, no step lowers the cost.
+/// Minimum predicted decrease of a damped step, relative to that at convergence: at a kink of the model, or
+/// with finite-difference derivatives, no step lowers the cost.
 const LEAST_PROMISE: f64 = 0.01;
-/// Most corrections of a step, and the share of what it promised that is enough. One takes a third more
-/// steps; with more than two some searches end in another maximum.
+/// Maximum number of corrections of a step, and the share of the predicted decrease that suffices. With one
+/// correction a third more steps are needed; with more than two some searches end in another mode.
 const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
-/// A step that lowers the cost by less than this share of what it is too high leads nowhere.
+/// A step that lowers the cost by less than this share of its excess over the limit is useless.
 const TOO_LITTLE: f64 = 0.005;
-/// Columns of a symmetric product that are computed at once.
+/// Columns of a symmetric product computed at once.
 const COLUMNS: usize = 32;
 
-/// A model seen through data of known noise.
+/// A model observed through data of known noise.
 pub trait Model {
-    /// What second derivatives at a point are made of.
+    /// What second derivatives at a point are computed from.
     type Second;
     /// Number of unknowns.
     fn unknowns(&self) -> usize;
     /// Data minus model at `w`, in units of the noise.
     fn residuals(&self, w: &DVector<f64>) -> DVector<f64>;
-    /// Residuals with derivatives.
+    /// Residuals with their derivatives.
     fn linearise(&self, w: &DVector<f64>) -> Linearised<Self::Second>;
-    /// `Σ λᵢ∇²mᵢ` at a point, one multiplier λ per residual; none if it is left out.
+    /// `Σ λᵢ∇²mᵢ` at a point, with one multiplier λ per residual; `None` if it is omitted.
     fn curvature(&self, at: &Self::Second, multipliers: &DVector<f64>) -> Option<DMatrix<f64>>;
 }
 
-/// A model about a point.
+/// A model linearised about a point.
 pub struct Linearised<S> {
     /// Residuals.
     pub residuals: DVector<f64>,
     /// Derivatives of the model: residual by unknown.
     pub jacobian: DMatrix<f64>,
-    /// For [`Model::curvature`].
+    /// Input of [`Model::curvature`].
     pub second: S,
 }
 
-/// Where the iteration ended.
+/// Result of the iteration.
 pub struct Solution<S> {
     /// The unknowns.
     pub w: DVector<f64>,
     /// The model there.
     pub at: Linearised<S>,
-    /// Iterations over all stages, each as it began.
+    /// Iterations of all stages, each at its beginning.
     pub trace: Vec<Iteration>,
     /// Why it stopped.
     pub termination: Termination,
 }
 
-/// Where an iteration began.
+/// State at the beginning of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
-    /// `|ρ(w)|² + |w|²`, the noise tempered.
+    /// `|ρ(w)|² + |w|²` with tempered noise.
     pub cost: f64,
     /// Norm of the gradient in the metric of the Hessian.
     pub gradient_norm: f64,
-    /// Damping of the first trial.
+    /// Damping of the first trial step.
     pub damping: f64,
     /// Factor by which the noise is tempered.
     pub tempering: f64,
 }
 
 impl<S> Solution<S> {
-    /// Logarithm of the probability of the data under prior and model, the noise `tempering` times its size,
-    /// but for a term that depends on the data alone.
+    /// Log evidence of the data under prior and model, with the noise scaled by `tempering`, up to a term
+    /// that depends on the data alone.
     ///
     /// # Source
-    /// Laplace's approximation: Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
+    /// Laplace approximation: Bishop, *Pattern Recognition and Machine Learning* (2006), section 4.4.
     #[must_use]
     pub fn ln_evidence(&self, tempering: f64) -> Option<f64> {
         let weight = tempering.powi(-2);
@@ -113,15 +114,15 @@ impl<S> Solution<S> {
         Some(-0.5 * (cost(weight, &self.w, &self.at.residuals) + information.ln_determinant()))
     }
 
-    /// Twice what was minimised, the noise `tempering` times its size.
+    /// Twice the objective, with the noise scaled by `tempering`.
     #[must_use]
     pub fn cost(&self, tempering: f64) -> f64 {
         cost(tempering.powi(-2), &self.w, &self.at.residuals)
     }
 
-    /// How far the data, the noise being `tempering` times its size, are from what the prior predicts, in
-    /// standard deviations: of a linear model the cost at the maximum is chi-squared, with as many degrees of
-    /// freedom as there are data. At a false maximum it is far out.
+    /// Distance of the data from the prior prediction in standard deviations, with the noise scaled by
+    /// `tempering`. For a linear model the cost at the mode is chi-squared, with as many degrees of freedom
+    /// as there are data; at a false mode the distance is large.
     #[must_use]
     pub fn surprise(&self, tempering: f64) -> f64 {
         let data = self.at.residuals.len() as f64;
@@ -129,41 +130,41 @@ impl<S> Solution<S> {
     }
 }
 
-/// Where a search ends before its minimum.
+/// Conditions that end a search before its minimum.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// After so many iterations.
+    /// Number of iterations.
     pub iterations: usize,
-    /// Where the cost cannot fall below that: none of a smaller noise is below that of a larger one.
+    /// A cost: the search ends when it cannot fall below this value. The cost never falls when the noise
+    /// does.
     pub cost: f64,
 }
 
 impl From<usize> for Limits {
-    /// After so many iterations.
+    /// With this number of iterations.
     fn from(iterations: usize) -> Self {
         Self { iterations, cost: f64::INFINITY }
     }
 }
 
-/// Factor of `I + JᵀJ`, J being the derivatives of the model: the inverse of Laplace's covariance. None if
-/// the model was not finite.
+/// Cholesky factor of `I + JᵀJ`, where J are the derivatives of the model: the inverse of the covariance in
+/// the Laplace approximation. `None` if the model was not finite.
 #[must_use]
 pub fn information(jacobian: &DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     Cholesky::new(gauss_newton(jacobian, 1.0))
 }
 
-/// The noise at the start: a third of the residual there, but no less than `least`, all in units of the true
-/// noise.
+/// The initial tempering of the noise: 0.3 times the root mean square residual at `w`, but at least `least`.
 pub fn first_tempering(model: &impl Model, w: &DVector<f64>, least: f64) -> f64 {
     let residuals = model.residuals(w);
     (FIRST_SHARE * residuals.norm() / (residuals.len().max(1) as f64).sqrt()).max(least)
 }
 
-/// Minimises from `start`, the noise first tempered to `tempering.0` times its true size and then, by roots
-/// of ten, down to `tempering.1`, until a step promises to lower the cost by no more than half of `tolerance`
-/// squared: the iterate is then within `tolerance` standard deviations of the minimum.
+/// Minimises from `start`. The noise is first scaled by `tempering.0` and then reduced by roots of ten down
+/// to `tempering.1` times its true size, until a step is predicted to lower the cost by no more than half of
+/// `tolerance` squared: the iterate is then within `tolerance` standard deviations of the minimum.
 ///
-/// Started at the true noise the iteration stalls in the narrow valley that precise data cut.
+/// Started at the true noise, the iteration stalls in the narrow valley cut by precise data.
 pub fn find_mode<M: Model>(
     model: &M,
     start: DVector<f64>,
@@ -183,14 +184,14 @@ pub fn find_mode<M: Model>(
     };
     let mut steps = 0;
     let termination = loop {
-        // Noise `now` times its size weighs squared residuals by 1/now².
+        // With the noise scaled by `now`, squared residuals have weight 1/now².
         let Some(newton) = search.gauss_newton(now.powi(-2)) else {
             break Termination::NoProgress { gradient_norm: f64::INFINITY };
         };
         let gradient_norm = newton.decrement;
         if now > last {
-            // A stage only has to lead to where the next one can start: it is left before its own minimum,
-            // but not without a step.
+            // A stage only needs to end where the next one can start: it stops short of its own minimum, but
+            // not without a step.
             if steps > 0 && (gradient_norm < END_OF_STAGE || steps == STEPS_A_STAGE) {
                 (now, steps) = ((now / STAGE).max(last), 0);
                 continue;
@@ -201,7 +202,7 @@ pub fn find_mode<M: Model>(
         if search.trace.len() >= limits.iterations {
             break Termination::IterationLimit;
         }
-        // the linear model says how low the cost may fall, but at the start
+        // except at the start, the linear model predicts how far the cost can fall
         let is_near = now < tempering.0 || gradient_norm < END_OF_STAGE;
         let cost = search.cost(&newton);
         let last_gain = search.trace.last().filter(|_| steps > 0).map(|before| before.cost - cost);
@@ -215,8 +216,7 @@ pub fn find_mode<M: Model>(
             if now <= last {
                 break Termination::NoProgress { gradient_norm };
             }
-            // Less noise changes the cost, so that steps may lower it again: end the stage and forget the
-            // damping.
+            // Less noise changes the cost, so steps may lower it again: end the stage and reset the damping.
             (steps, search.damping) = (STEPS_A_STAGE, 0.0);
         }
     };
@@ -224,12 +224,12 @@ pub fn find_mode<M: Model>(
     Solution { w, at, trace, termination }
 }
 
-/// Twice what is minimised.
+/// Twice the objective.
 pub(super) fn cost(weight: f64, w: &DVector<f64>, residuals: &DVector<f64>) -> f64 {
     weight * residuals.norm_squared() + w.norm_squared()
 }
 
-/// The lower triangle of `I + weight·JᵀJ`: no more of it is made use of.
+/// The lower triangle of `I + weight·JᵀJ`; the rest is not used.
 pub(super) fn gauss_newton(jacobian: &DMatrix<f64>, weight: f64) -> DMatrix<f64> {
     let (count, transposed) = (jacobian.ncols(), jacobian.transpose());
     let mut hessian = DMatrix::identity(count, count);
@@ -252,12 +252,12 @@ struct Search<'a, M: Model> {
     w: DVector<f64>,
     at: Linearised<M::Second>,
     damping: f64,
-    /// A damped step that promises less is not tried.
+    /// A damped step with a smaller predicted decrease is not tried.
     least_promise: f64,
     trace: Vec<Iteration>,
 }
 
-/// Gauss and Newton's step, the data weighted by `weight`, and what it was made of.
+/// A Gauss-Newton step, with data weighted by `weight`, and its ingredients.
 struct GaussNewton {
     weight: f64,
     hessian: DMatrix<f64>,
@@ -269,7 +269,7 @@ struct GaussNewton {
 }
 
 impl<M: Model> Search<'_, M> {
-    /// None if the model is not finite.
+    /// `None` if the model is not finite.
     fn gauss_newton(&self, weight: f64) -> Option<GaussNewton> {
         let descent = weight * self.at.jacobian.tr_mul(&self.at.residuals) - &self.w;
         let hessian = gauss_newton(&self.at.jacobian, weight);
@@ -292,10 +292,10 @@ impl<M: Model> Search<'_, M> {
         });
     }
 
-    /// One step, damped until it lowers the cost; whether any did.
+    /// One step, damped until it lowers the cost; returns false if none does.
     fn step(&mut self, newton: &GaussNewton) -> bool {
-        // What the linear model leaves of the residuals, not the residuals themselves: far from the minimum
-        // these are large and would make a curvature of what the step is about to remove.
+        // The residuals predicted by the linear model rather than the current ones, which far from the
+        // minimum are large and would add a curvature for what the step is about to remove.
         let multipliers = &self.at.residuals - &self.at.jacobian * &newton.direction;
         let curvature =
             self.model.curvature(&self.at.second, &multipliers).map(|of_data| newton.weight * of_data);
@@ -307,7 +307,7 @@ impl<M: Model> Search<'_, M> {
             if let Some((next, kept)) = direction.and_then(|direction| self.trial(newton, direction)) {
                 self.at = self.model.linearise(&next);
                 self.w = next;
-                // Damping stands in for a curvature that is left out: it rises where that shows.
+                // Damping replaces a curvature that is left out: it rises where that matters.
                 if curvature.is_some() || kept > KEPT_WELL {
                     self.damping *= DAMPING_DOWN;
                 } else if kept < KEPT_BADLY {
@@ -327,7 +327,7 @@ impl<M: Model> Search<'_, M> {
         self.damping = (DAMPING_UP * self.damping).max(DAMPING);
     }
 
-    /// The damped step; none if the Hessian is not positive or the step too long.
+    /// The damped step; `None` if the Hessian is not positive definite or the step is too long.
     fn direction(&self, newton: &GaussNewton, curvature: Option<&DMatrix<f64>>) -> Option<DVector<f64>> {
         let direction = if curvature.is_none() && self.damping <= 0.0 {
             newton.direction.clone()
@@ -340,8 +340,8 @@ impl<M: Model> Search<'_, M> {
         (direction.norm() <= LONGEST).then_some(direction)
     }
 
-    /// Where a step leads, corrected for what bends if it does not keep half of its promise, and the share
-    /// that it keeps; none if the cost is higher.
+    /// The result of a step, corrected for curvature if it achieves less than half of the predicted decrease,
+    /// and the share achieved; `None` if the cost is higher.
     fn trial(&self, newton: &GaussNewton, direction: DVector<f64>) -> Option<(DVector<f64>, f64)> {
         let cost = |w: &DVector<f64>, residuals: &DVector<f64>| cost(newton.weight, w, residuals);
         let before = cost(&self.w, &self.at.residuals);
@@ -352,8 +352,8 @@ impl<M: Model> Search<'_, M> {
         if after < before - 0.5 * promise {
             return Some((next, (before - after) / promise));
         }
-        // The curvature of precise data has thrown the step off their valley: solutions with the old factor,
-        // for what the linear model did not foresee, lead back to it.
+        // The curvature of precise data has thrown the step off their valley: corrections with the old
+        // factor, for the deviation from the linear prediction, lead back to it.
         let foreseen = &self.at.residuals - &self.at.jacobian * direction;
         let enough = before - KEPT * (before - cost(&next, &foreseen));
         for _ in 0..CORRECTIONS {
@@ -378,7 +378,7 @@ impl<M: Model> Search<'_, M> {
 mod tests {
     use super::*;
 
-    /// One unknown w seen as `scale·exp(w)`, in units of the noise.
+    /// One unknown w observed as `scale·exp(w)`, in units of the noise.
     struct Exponential {
         data: f64,
         scale: f64,
@@ -442,11 +442,11 @@ mod tests {
         assert!(matches!(found.termination, Termination::Converged { .. }), "{:?}", found.termination);
         assert!(found.w.norm() < 1e-5, "{}", found.w);
         let steps = found.trace.len();
-        // With one correction a step, more than 1000.
+        // With one correction per step, more than 1000.
         assert!(steps < 400, "{steps} steps");
     }
 
-    /// A model that is least, and still far from the data, at its kink where the first unknown is 1.
+    /// A model whose misfit is least, though still large, at its kink, where the first unknown is 1.
     struct Kink;
 
     impl Model for Kink {
@@ -477,7 +477,7 @@ mod tests {
         assert!(matches!(found.termination, Termination::NoProgress { .. }), "{:?}", found.termination);
         assert!((found.w[0] - 1.0).abs() < 1e-5, "{}", found.w);
         let steps = found.trace.len();
-        // If steps that promise nothing were tried, 33.
+        // If steps without a predicted decrease were tried, 33.
         assert!(steps < 20, "{steps} steps");
     }
 

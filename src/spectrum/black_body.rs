@@ -5,12 +5,13 @@ use super::grid::WavelengthGrid;
 use super::quantities::bad;
 use crate::error::Result;
 
-/// Second radiation constant, nm K, as colorimetry has it (CIE 15:2018, section 4.1.1; hc/k is 0.002 % less).
+/// Second radiation constant, nm K, as used in colorimetry (CIE 15:2018, section 4.1.1; hc/k is 0.002 %
+/// less).
 const C2_NM_K: f64 = 1.438_8e7;
-/// Temperatures of what shines, K.
+/// Temperatures of glowing bodies, K.
 const TEMPERATURES_K: std::ops::RangeInclusive<f64> = 1000.0..=25000.0;
 
-/// The temperature that a name such as `2856K` says, K.
+/// The temperature in a name such as `2856K`, K.
 pub(super) fn temperature_k(name: &str) -> Option<f64> {
     name.strip_suffix(['K', 'k'])?.trim().parse().ok().filter(|kelvin: &f64| kelvin.is_finite())
 }

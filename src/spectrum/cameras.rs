@@ -1,7 +1,7 @@
-//! The 52 cameras of rawtoaces-data, found by maker and model as they write them into their pictures.
+//! The 52 cameras of rawtoaces-data, found by make and model as in their pictures' metadata.
 //!
-//! Measured at Wētā Digital, scitech and the National Physical Laboratory; `share/make-cameras.py` made the
-//! array and the names.
+//! Measured at Wētā Digital, scitech and the National Physical Laboratory; `share/make-cameras.py` created
+//! the array and the names.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 
 const NAMES: &str = include_str!("../../share/cameras.txt");
 const SENSITIVITIES: &[u8] = include_bytes!("../../share/cameras.npy");
-/// The array holds sensitivity in this fraction of 1.
+/// Unit of the sensitivities in the array, as a fraction of 1.
 const UNIT: f64 = 1.0 / 50_000.0;
 
 /// A camera whose sensitivities were measured.
@@ -21,17 +21,17 @@ pub struct MeasuredCamera {
     pub maker: &'static str,
     /// The model, without its maker.
     pub model: &'static str,
-    /// Who measured it, and when.
+    /// Who measured the camera, and when.
     pub measured_by: &'static str,
-    /// Other names of the model, between semicolons.
+    /// Other names of the model, separated by semicolons.
     aliases: &'static str,
-    /// Models with the same sensor, between semicolons.
+    /// Models with the same sensor, separated by semicolons.
     same_sensor: &'static str,
-    /// Its place in the array.
+    /// Index in the array.
     at: usize,
 }
 
-/// All of them, by maker and model.
+/// All measured cameras, by maker and model.
 ///
 /// # Example
 /// ```
@@ -48,7 +48,7 @@ pub fn measured_cameras() -> impl Iterator<Item = MeasuredCamera> {
     })
 }
 
-/// The channels R, G and B of all of them, 380..780 nm by 5, each camera's peak being 1.
+/// The channels R, G and B of all of them, 380..780 nm by 5, scaled to a peak of 1 for each camera.
 ///
 /// # Errors
 /// Only if the embedded array is damaged.
@@ -70,13 +70,13 @@ pub fn measured_sensitivities() -> Result<Vec<[Spectrum; 3]>> {
 }
 
 impl MeasuredCamera {
-    /// What it is called on the command line: `canon-eos-600d`.
+    /// Its name on the command line: `canon-eos-600d`.
     #[must_use]
     pub fn name(&self) -> String {
         words(self.maker).chain(words(self.model)).collect::<Vec<_>>().join("-")
     }
 
-    /// One line about it.
+    /// One-line description.
     pub(super) fn description(&self) -> String {
         let list = |names: &str| names.replace(';', ", ");
         let aliases =
@@ -101,14 +101,13 @@ impl MeasuredCamera {
         Ok(all.swap_remove(self.at).into())
     }
 
-    /// Whether it is of the maker that writes `make` into its pictures.
+    /// True if it is of the maker that writes `make` into its pictures.
     #[must_use]
     pub fn is_made_by(&self, make: &str) -> bool {
         words(self.maker).next() == words(make).next()
     }
 
-    /// The model whose sensor is this one's, if `model`, as it is written into pictures, is not this one but
-    /// has its sensor.
+    /// True if `model`, as written into pictures, is not this model but has the same sensor.
     #[must_use]
     pub fn has_same_sensor(&self, model: &str) -> bool {
         self.is_called(self.same_sensor, model)
@@ -124,23 +123,24 @@ impl MeasuredCamera {
     }
 }
 
-/// The camera that writes this make and model into its pictures, or has the same sensor.
+/// The camera that writes this make and model into its pictures, or one with the same sensor.
 pub(super) fn by_exif(make: &str, model: &str) -> Option<MeasuredCamera> {
     measured_cameras().find(|camera| camera.is_made_by(make) && camera.is_or_shares_sensor(model))
 }
 
-/// The camera called `name` on the command line: its maker, and any name of its model.
+/// The camera called `name` on the command line: its maker and any name of its model.
 pub(super) fn by_name(name: &str) -> Option<MeasuredCamera> {
     measured_cameras().find(|camera| camera.is_made_by(name) && camera.is_or_shares_sensor(name))
 }
 
-/// Whether make and model, as they are written into pictures, are those of a camera that calls itself
-/// otherwise elsewhere.
+/// True if two makes and models, as written into pictures, denote one camera that is called differently
+/// elsewhere.
 pub(super) fn is_same_model((make, model): (&str, &str), (other_make, other): (&str, &str)) -> bool {
     words(make).next() == words(other_make).next() && plain_model(make, model) == plain_model(make, other)
 }
 
-/// What tells a model from the others of its maker: `NIKON D70` is `d70`, `Canon EOS 400D DIGITAL` is `400d`.
+/// What distinguishes a model from others of its maker: `NIKON D70` is `d70`, `Canon EOS 400D DIGITAL` is
+/// `400d`.
 fn plain_model(maker: &str, model: &str) -> String {
     let of_maker: Vec<String> = words(maker).collect();
     let says_nothing =
@@ -166,7 +166,7 @@ mod tests {
         }
     }
 
-    /// As the makers write them.
+    /// Names as the makers write them.
     #[test]
     fn models_are_known_by_all_their_names() {
         for (make, model, want) in [

@@ -1,37 +1,37 @@
-//! Lights that a photograph may have been taken in, where nobody says which: what evidence chooses from.
+//! Candidate lights for photographs whose light is not stated; the evidence chooses among them.
 
 use super::{Spectrum, illuminant};
 use crate::error::Result;
 
-/// A light that may have been the one.
+/// A light under which a photograph may have been taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CandidateLight {
-    /// Its relative power.
+    /// Relative spectral power.
     pub spectrum: Spectrum,
-    /// How often it is the one, the shares of all adding up to 1.
+    /// Prior probability; those of all candidates add up to 1.
     pub share: f64,
     /// Correlated colour temperature of daylight and black bodies, K.
     pub cct_k: Option<f64>,
-    /// Whether it is one of all daylights, which a photograph takes as one light of unknown temperature.
+    /// True for a daylight, all of which a photograph treats as one light of unknown temperature.
     pub is_any_daylight: bool,
 }
 
-/// Lights of one kind.
+/// A kind of light.
 struct Kind {
     share: f64,
     is_any_daylight: bool,
-    /// With reciprocal temperatures so far apart, 1e-6/K.
+    /// The lights, with reciprocal temperatures at this spacing, 1e-6/K.
     lights: fn(usize) -> Vec<(String, Option<f64>)>,
 }
 
-/// Reciprocal temperatures, 1e-6/K, are this far apart: lights between two of them are distinguished from
-/// neither by facets of one part in a thousand.
+/// Spacing of reciprocal temperatures, 1e-6/K: facets accurate to one part in a thousand distinguish lights
+/// between two of them from neither.
 const STEP_MIRED: usize = 10;
-/// The same of a sheet that is known.
+/// The same for a known sheet.
 const FINE_STEP_MIRED: usize = 2;
 
-/// Nothing is known of where people fold sheets but that it is by day as often as not: round shares, none of
-/// them fitted.
+/// All that is known of where people fold sheets is that it is by day as often as not: the probabilities are
+/// round numbers, none of them fitted.
 const SOURCES: [Kind; 5] = [
     Kind {
         share: 0.4,
@@ -81,7 +81,7 @@ fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Ve
 }
 
 /// Daylight of 4000 to 12 500 K, the sun at four heights, black bodies of 2500 to 4000 K, CIE's white LEDs
-/// and fluorescent lamps, neighbours next to each other.
+/// and fluorescent lamps, ordered so that similar lights are adjacent.
 ///
 /// # Errors
 /// Only if the embedded tables are damaged.
@@ -98,7 +98,7 @@ pub fn candidate_lights() -> Result<Vec<CandidateLight>> {
     lights_apart(STEP_MIRED)
 }
 
-/// The same nearer to each other than facets of a known sheet tell.
+/// The same lights, spaced more closely than the facets of a known sheet can distinguish.
 ///
 /// # Errors
 /// As [`candidate_lights`].
@@ -119,7 +119,7 @@ fn lights_apart(step_mired: usize) -> Result<Vec<CandidateLight>> {
     SOURCES.iter().flat_map(of_kind).collect()
 }
 
-/// Lights of one's own, each as probable as any other.
+/// The user's own lights, all equally probable.
 #[must_use]
 pub fn equal_candidates(spectra: Vec<Spectrum>) -> Vec<CandidateLight> {
     let share = 1.0 / spectra.len().max(1) as f64;

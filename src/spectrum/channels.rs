@@ -1,36 +1,36 @@
-//! Which column of a file is which channel of a camera: by name, in any order.
+//! Assigns the columns of a file to the channels of a camera: by name, in any order.
 
 use super::Spectrum;
 use super::names::words;
 use super::quantities::bad;
 use crate::error::Result;
 
-/// The colours of channels, as words in columns' names, in the order in which a camera has them.
+/// Words in column names that denote the colours, in the order of a camera's channels.
 const COLOURS: [&[&str]; 3] =
     [&["r", "red"], &["g", "green", "g1", "g2", "gr", "gb", "green1", "green2"], &["b", "blue"]];
 const GREEN: usize = 1;
-/// How far apart the peaks of measured channels are at least: of those built in that are on one scale, by a
-/// fifth.
+/// Peaks of channels that differ by less than this fraction count as equal. Those of built-in cameras with a
+/// common scale differ by at least a fifth.
 const SAME_PEAK: f64 = 0.01;
 
-/// The place among R, G and B that the name of a column says: `R`, `Red channel`, `Canon R`, `G1`.
+/// Index among R, G and B given by the name of a column: `R`, `Red channel`, `Canon R`, `G1`.
 fn place(name: &str) -> Option<usize> {
     let mut places = words(name).filter_map(|word| COLOURS.iter().position(|words| words.contains(&&*word)));
     let first = places.next()?;
     places.all(|other| other == first).then_some(first)
 }
 
-/// Whether the name of a column says which of two greens it is: `G1`, `Green 2`, `Gr`.
+/// True if the name of a column says which of two greens it is: `G1`, `Green 2`, `Gr`.
 fn is_one_of_two(name: &str) -> bool {
     words(name).any(|word| matches!(word.as_str(), "gr" | "gb") || word.ends_with(['1', '2']))
 }
 
-/// The channels of a camera's file in the order R, G, B, two greens as their mean, and what was done; columns
-/// whose names say no colour stay where they are.
+/// The channels of a camera's file in the order R, G, B, with the mean of two greens, and notes on what was
+/// done. Columns whose names give no colour keep their order.
 ///
 /// # Errors
-/// [`crate::Error::Spectrum`] if two columns are of one colour, or if names say the colours of some but not
-/// of all.
+/// [`crate::Error::Spectrum`] if two columns have the same colour, or if names give the colours of some
+/// columns but not of all channels.
 pub(super) fn in_order(path: &str, columns: &[Spectrum]) -> Result<(Vec<Spectrum>, Vec<String>)> {
     const NAME_THEM: &str = "name the columns R, G and B";
     let places: Vec<_> = columns.iter().map(|column| place(column.name())).collect();
@@ -89,8 +89,8 @@ fn mean(name: &str, a: &Spectrum, b: &Spectrum) -> Spectrum {
     Spectrum::from_table(name.to_owned(), a.wavelengths_nm.clone(), values)
 }
 
-/// Whether the two or three channels of a camera have the same peak: someone scaled them one by one, and they
-/// do not say any more how they compare. Filters of a camera with more may well be so.
+/// True if the two or three channels of a camera have the same peak: they were scaled one by one, and their
+/// ratios are lost. More than three channels may well have equal peaks.
 ///
 /// # Example
 /// ```
@@ -152,7 +152,7 @@ mod tests {
         }
     }
 
-    /// None of those that are on one scale: three were published with channels scaled one by one.
+    /// Only those published with channels scaled one by one have equal peaks.
     #[test]
     fn built_in_cameras_have_peaks_of_their_own() {
         let sensitivities = crate::spectrum::measured_sensitivities().unwrap();

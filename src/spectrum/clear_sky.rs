@@ -2,18 +2,18 @@
 //!
 //! R. Bird, C. Riordan, "Simple solar spectral model for direct and diffuse irradiance on horizontal and
 //! tilted planes at the earth's surface for cloudless atmospheres", *Journal of Climate and Applied
-//! Meteorology* 25 (1986), p. 87; equations are those of the report before it, SERI/TR-215-2436 (1984). Where
-//! report and NREL's program `spectrl2_2.c` differ, the program is followed, as pvlib does.
+//! Meteorology* 25 (1986), p. 87; equation numbers refer to the preceding report, SERI/TR-215-2436 (1984).
+//! Where the report and NREL's program `spectrl2_2.c` differ, the program is followed, as in pvlib.
 
 use super::Spectrum;
 use super::sun::Sun;
 use super::tables::builtin;
 use crate::error::Result;
 
-/// What stands between the sun and the ground.
+/// The atmosphere between the sun and the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClearSky {
-    /// Where the sun is, and when.
+    /// Position of the sun, and the day.
     pub sun: Sun,
     /// Pressure at the ground, Pa.
     pub pressure_pa: f64,
@@ -23,25 +23,25 @@ pub struct ClearSky {
     pub water_cm: f64,
     /// Ozone, atm cm.
     pub ozone_atm_cm: f64,
-    /// Share of light that the ground around reflects.
+    /// Albedo of the surrounding ground.
     pub ground_albedo: f64,
 }
 
-/// Pressure to which the air mass is referred, Pa.
+/// Reference pressure of the air mass, Pa.
 const SEA_LEVEL_PA: f64 = 101_300.0;
 /// Angstrom's exponent of a rural aerosol.
 const ANGSTROM: f64 = 1.14;
-/// Single scattering albedo of the aerosol at 400 nm, and how it varies with the wavelength.
+/// Single scattering albedo of the aerosol at 400 nm, and its variation with wavelength.
 const SCATTERING: f64 = 0.945;
 const SCATTERING_VARIATION: f64 = 0.095;
-/// Mean cosine of the angle by which the aerosol scatters.
+/// Mean cosine of the aerosol's scattering angle.
 const ASYMMETRY: f64 = 0.65;
-/// Air mass of the light that the sky sends back to the ground.
+/// Air mass for light that the sky returns to the ground.
 const BACK_AIR_MASS: f64 = 1.8;
 
 impl ClearSky {
-    /// At sea level, turbidity 0.1 at 500 nm, 1.42 cm of water and 0.344 atm cm of ozone, the U.S. Standard
-    /// Atmosphere's as in ASTM G173, ground of albedo 0.2.
+    /// Sea level, ground of albedo 0.2, and the U.S. Standard Atmosphere as in ASTM G173: turbidity 0.1 at
+    /// 500 nm, 1.42 cm of water and 0.344 atm cm of ozone.
     #[must_use]
     pub fn usual(sun: Sun) -> Self {
         Self {
@@ -54,7 +54,7 @@ impl ClearSky {
         }
     }
 
-    /// Direct light on a plane that faces the sun, W/(m² nm), 300..840 nm; eq. 2-1.
+    /// Direct light on a plane facing the sun, W/(m² nm), 300..840 nm; eq. 2-1.
     ///
     /// # Errors
     /// Only if the embedded table is damaged.
@@ -114,8 +114,8 @@ impl ClearSky {
         (by_air + by_aerosol + from_ground) * ultraviolet
     }
 
-    /// Share of light from the ground that the sky sends back; eq. 3-8 as in the program, with the mixed
-    /// gases in place of ozone.
+    /// Share of light from the ground that the sky returns; eq. 3-8 as in the program, with the mixed gases
+    /// in place of ozone.
     fn sky_reflectivity(&self, band: &Band) -> f64 {
         let passed = self.passed(band, BACK_AIR_MASS);
         let backward = 1.0 - forward_share(1.0 / BACK_AIR_MASS);
@@ -124,7 +124,7 @@ impl ClearSky {
         passed.mixed * passed.water * passed.aerosol_absorption * scattered
     }
 
-    /// What each part of the air lets through on a way of this air mass; section 2.
+    /// Transmittance of each part of the air for this air mass; section 2.
     fn passed(&self, band: &Band, air_mass: f64) -> Passed {
         let um = band.nm / 1000.0;
         let pressed = air_mass * self.pressure_pa / SEA_LEVEL_PA;
@@ -144,7 +144,7 @@ impl ClearSky {
     }
 }
 
-/// A row of the table: wavelength, the sun at its mean distance, coefficients of absorption.
+/// A row of the table: wavelength, the sun at its mean distance, and absorption coefficients.
 struct Band {
     nm: f64,
     sun: f64,
@@ -153,7 +153,7 @@ struct Band {
     mixed: f64,
 }
 
-/// Shares of light that parts of the air let through.
+/// Transmittances of parts of the air.
 struct Passed {
     rayleigh: f64,
     aerosol_scattering: f64,
@@ -164,7 +164,7 @@ struct Passed {
 }
 
 impl Passed {
-    /// The aerosol as a whole; eq. 2-6.
+    /// The whole aerosol; eq. 2-6.
     fn aerosol(&self) -> f64 {
         self.aerosol_scattering * self.aerosol_absorption
     }

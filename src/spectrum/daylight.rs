@@ -30,19 +30,19 @@ pub(super) fn daylight(cct_k: f64) -> Result<Spectrum> {
     let basis = basis()?;
     let [s0, s1, s2] = [0, 1, 2].map(|i| basis[i].values());
     let values = s0.iter().zip(s1).zip(s2).map(|((s0, s1), s2)| s0 + m1 * s1 + m2 * s2).collect();
-    // CIE 15 joins the values by lines
+    // CIE 15 interpolates the values linearly
     Ok(Spectrum::from_table(name, basis[0].wavelengths_nm.clone(), values).linear())
 }
 
-/// M1 and M2 of daylight of the correlated colour temperature `cct_k`, in K: a smooth function of it.
+/// M1 and M2 of daylight as smooth functions of the correlated colour temperature `cct_k`, in K.
 #[must_use]
 pub fn daylight_weights(cct_k: f64) -> [f64; 2] {
     let (m1, m2) = exact_weights(chromaticity(cct_k));
     [m1, m2]
 }
 
-/// A light that is one of the CIE's daylight illuminants, which are tabulated here from 380 nm, continued to
-/// 300 nm by the formulae of their temperatures; any other light as it is.
+/// Extends a light that is one of the CIE's daylight illuminants, which are tabulated here from 380 nm, to
+/// 300 nm by the formulae for its temperature; returns any other light unchanged.
 ///
 /// # Errors
 /// [`Error::Spectrum`] if a table is damaged.
@@ -61,7 +61,7 @@ pub fn in_ultraviolet(light: Spectrum) -> Result<Spectrum> {
     let whole = daylight(*cct_k)?;
     let (first_nm, _) = light.range_nm();
     let start = whole.wavelengths_nm().partition_point(|nm| *nm < first_nm);
-    // a file may have the same name, and other units
+    // a file may have the same name but other units
     let is_same = whole.values().get(start).is_some_and(|value| (value - light.values()[0]).abs() < ROUNDING);
     if !is_same {
         return Ok(light);
@@ -74,10 +74,10 @@ pub fn in_ultraviolet(light: Spectrum) -> Result<Spectrum> {
     })
 }
 
-/// The CIE's daylight illuminants, with the temperatures at which the formulae give them, K.
+/// The CIE's daylight illuminants, with the temperatures at which the formulae reproduce them, K.
 const ILLUMINANTS: [(&str, f64); 5] =
     [("D50", 5003.0), ("D55", 5503.0), ("D60", 6003.0), ("D65", 6504.0), ("D75", 7504.0)];
-/// By how much their tables differ from the formulae.
+/// Largest difference between their tables and the formulae.
 const ROUNDING: f64 = 0.06;
 
 /// Mean daylight and its characteristic vectors, S0, S1 and S2.
@@ -110,7 +110,7 @@ fn chromaticity(cct_k: f64) -> (f64, f64) {
     (x, (-3.0 * x + 2.870) * x - 0.275)
 }
 
-/// M1 and M2, rounded to three decimals as CIE 15 asks.
+/// M1 and M2, rounded to three decimals as CIE 15 requires.
 fn weights(chromaticity: (f64, f64)) -> (f64, f64) {
     let (m1, m2) = exact_weights(chromaticity);
     ((m1 * 1e3).round() / 1e3, (m2 * 1e3).round() / 1e3)
@@ -146,7 +146,7 @@ mod tests {
         }
     }
 
-    /// The standard illuminants were tabulated from the same formulae.
+    /// The standard illuminants were tabulated by the same formulae.
     #[test]
     fn meets_the_standard_illuminants() {
         let grid = WavelengthGrid::uniform(380.0, 780.0, 5.0).unwrap();

@@ -1,4 +1,5 @@
-//! Donaldson matrices: what a sheet that fluoresces makes of light of each wavelength, at each wavelength.
+//! Donaldson matrices: the light that a fluorescent sheet returns at each wavelength, for light of each
+//! wavelength.
 
 use nalgebra::DMatrix;
 
@@ -6,49 +7,49 @@ use super::quantities::bad;
 use super::{Outside, Spectrum, WavelengthGrid, formats, interpolation::Interpolation};
 use crate::error::{Error, Result};
 
-/// Nearer to its excitation than this, nm, light counts as reflected: instruments that measure such matrices
-/// let bands of 10 nm pass, which share what their neighbours reflect.
+/// Light within this distance of its excitation, nm, counts as reflected: instruments that measure such
+/// matrices have bands of 10 nm, in which reflected light leaks into the neighbours.
 const REFLECTED_WITHIN_NM: f64 = 10.0;
-/// More than instruments measure of nothing: up to 0.006 in four matrices of a Labsphere BFC-450.
+/// Above the noise of instruments, which reaches 0.006 in four matrices of a Labsphere BFC-450.
 const NO_NOISE: f64 = 0.01;
 
-/// The bispectral radiance factors of a sheet: what it sends out in a waveband of light that falls on it in
-/// another one, where white sends out as much as falls on it in the same.
+/// The bispectral radiance factors of a sheet: the light leaving it in one waveband for light falling on it
+/// in another, where white returns in each waveband the light that it receives there.
 ///
 /// # Source
 /// R. Donaldson, "Spectrophotometry of fluorescent pigments", *British Journal of Applied Physics* 5 (1954),
 /// p. 210.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Donaldson {
-    /// Light that is reflected, on the wavelengths of emission.
+    /// Reflected light, on the wavelengths of emission.
     reflectance: Spectrum,
     excitation: WavelengthGrid,
-    /// Light that fluoresces, a spectrum for each wavelength of excitation.
+    /// Fluorescent light, a spectrum for each wavelength of excitation.
     fluorescence: Vec<Spectrum>,
 }
 
-/// What a sheet that fluoresces makes of light, on the wavelengths of a scene and on those that excite it.
+/// Reflection and emission of a fluorescent sheet, on the wavelengths of a scene and on those that excite it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bispectral {
     /// Reflectance, one per waveband of the scene.
     pub reflectance: Vec<f64>,
-    /// What is sent out in the scene's wavebands (rows) of light in the bands of excitation (columns),
-    /// without what is reflected.
+    /// Emission in the scene's wavebands (rows) for light in the excitation bands (columns), without
+    /// reflection.
     pub fluorescence: DMatrix<f64>,
     /// The bands of excitation.
     pub excitation: WavelengthGrid,
-    /// What is sent out in those bands (rows) of light in them (columns), what is reflected included.
+    /// Light leaving the sheet in those bands (rows) for light in them (columns), reflection included.
     pub between_bands: DMatrix<f64>,
 }
 
 impl Donaldson {
-    /// The matrix of `factors`, emission by excitation, of a sheet of this name. What is next to its
-    /// excitation is reflected, by 10 nm at most; no light is sent out at shorter wavelengths than excite it:
-    /// such factors are noise and left out, as are those below 0.
+    /// The matrix of `factors`, emission by excitation, for a sheet of this name. Factors within 10 nm of
+    /// their excitation are reflection. No light is emitted at wavelengths shorter than the excitation: such
+    /// factors are noise and omitted, as are negative ones.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if more than white has is reflected, or if rows and columns are interchanged;
-    /// [`Error::Grid`] if wavelengths do not rise.
+    /// [`Error::Spectrum`] if more is reflected than by white, or if rows and columns are interchanged;
+    /// [`Error::Grid`] if wavelengths do not increase.
     ///
     /// # Example
     /// ```
@@ -71,7 +72,7 @@ impl Donaldson {
     ) -> Result<Self> {
         let (emission_nm, excitation_nm) = (emission.wavelengths_nm(), excitation.wavelengths_nm());
         let shift_nm = |row: usize, column: usize| emission_nm[row] - excitation_nm[column];
-        // what the factors are where `is_there`, by the shift of their wavelengths
+        // the factors for which `is_there` holds, given the shift between their wavelengths
         let part = |is_there: fn(f64) -> bool| {
             DMatrix::from_fn(emission_nm.len(), excitation_nm.len(), |row, column| {
                 if is_there(shift_nm(row, column)) { factors[(row, column)].max(0.0) } else { 0.0 }
@@ -104,12 +105,12 @@ impl Donaldson {
         })
     }
 
-    /// Reads a matrix from CSV, wavelengths of emission in the first column, those of excitation in the
-    /// header, or from the export of a Labsphere BFC-450.
+    /// Reads a matrix from CSV, with wavelengths of emission in the first column and those of excitation in
+    /// the header, or from the export of a Labsphere BFC-450.
     ///
     /// # Errors
     /// As [`Donaldson::new`]; [`Error::File`] or [`Error::Table`] for a file that cannot be read,
-    /// [`Error::Spectrum`] for a column that is not called by a wavelength.
+    /// [`Error::Spectrum`] for a column whose name is not a wavelength.
     pub fn read(path: &str) -> Result<Self> {
         let columns = formats::read(path, formats::no_json)?.spectra(path);
         let wavelength_nm = |column: &Spectrum| {
@@ -126,7 +127,7 @@ impl Donaldson {
         Self::new(&stem, emission, WavelengthGrid::new(excitation_nm)?, &factors)
     }
 
-    /// What the sheet reflects, called as the sheet is.
+    /// The sheet's reflectance, with the sheet's name.
     #[must_use]
     pub fn reflectance(&self) -> &Spectrum {
         &self.reflectance
@@ -139,12 +140,12 @@ impl Donaldson {
         self.fluorescence.iter().position(excites).map(|band| self.excitation.wavelengths_nm()[band])
     }
 
-    /// The matrix on a scene's wavelengths. Beyond those of its emission the sheet is taken to reflect what
-    /// it does at the nearest of them: instruments begin at 380 nm to look at light that excites it from 300
-    /// nm on, and that bounces, too.
+    /// The matrix on a scene's wavelengths. Outside the wavelengths of emission the sheet is assumed to
+    /// reflect as at the nearest of them: instruments measure emission from 380 nm, but light from 300 nm
+    /// excites the sheet, and bounces, too.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if the emission does not cover them.
+    /// [`Error::Spectrum`] if the emission does not cover the scene's wavelengths.
     pub fn on(&self, grid: &WavelengthGrid) -> Result<Bispectral> {
         let columns = |grid: &WavelengthGrid| {
             let columns = self.fluorescence.iter().map(|column| column.on(grid, Outside::Zero));

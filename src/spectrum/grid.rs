@@ -1,12 +1,12 @@
-//! The wavelength grid every computation of one scene shares.
+//! The wavelength grid shared by all computations of a scene.
 //!
-//! Paper section 3: the q wavebands of r(λ); section 5C takes 400..700 nm by 5 (q = 61), the default here.
+//! Paper section 3: the q wavebands of r(λ); section 5C uses 400..700 nm by 5 (q = 61), the default here.
 
 use super::interpolation::even_step_nm;
 use crate::error::{Error, Result};
 use std::fmt;
 
-/// More wavebands than facets of three numbers have use for, 300 to 2300 nm by 1: time and memory grow with
+/// More wavebands than facets with three channels can use, 300 to 2300 nm by 1: time and memory grow with
 /// their square.
 const MAX_WAVELENGTHS: usize = 2001;
 
@@ -28,7 +28,8 @@ impl WavelengthGrid {
     /// A grid of any spacing, from `wavelengths_nm`.
     ///
     /// # Errors
-    /// Fewer than two wavelengths or more than 2001, or not finite, positive and strictly increasing.
+    /// Fewer than 2 wavelengths, more than 2001, or any that are not finite, positive and strictly
+    /// increasing.
     pub fn new(wavelengths_nm: Vec<f64>) -> Result<Self> {
         check_rising(&wavelengths_nm)?;
         if wavelengths_nm.len() > MAX_WAVELENGTHS {
@@ -40,7 +41,7 @@ impl WavelengthGrid {
     /// The grid `first_nm, first_nm + step_nm, …, last_nm`.
     ///
     /// # Errors
-    /// The step is not positive, or does not divide the range, or gives more than 2001 wavelengths.
+    /// The step is not positive, does not divide the range, or gives more than 2001 wavelengths.
     ///
     /// # Example
     /// ```
@@ -104,7 +105,7 @@ impl WavelengthGrid {
     }
 }
 
-/// Refuses what are no wavelengths in nm, two or more and rising.
+/// Refuses anything but two or more increasing wavelengths in nm.
 pub(super) fn check_rising(wavelengths_nm: &[f64]) -> Result<()> {
     if wavelengths_nm.len() < 2 {
         return Err(bad("fewer than two wavelengths".into(), "give at least two"));

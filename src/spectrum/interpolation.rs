@@ -1,20 +1,20 @@
 //! Values between the samples of a spectrum.
 //!
 //! CIE 167:2005, "Recommended practice for tabulating spectral data for use in colour computations":
-//! Sprague's polynomial of fifth degree for even samples. What is uneven, or too short for it, is joined by
-//! lines.
+//! Sprague's polynomial of fifth degree for evenly spaced samples. Uneven or too few samples are interpolated
+//! linearly.
 
-/// How values between samples are found.
+/// Interpolation between samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// By lines.
+    /// Linear.
     Linear,
-    /// By polynomials of fifth degree through even samples, at least six.
+    /// Polynomials of fifth degree through at least six evenly spaced samples.
     Sprague,
 }
 
 impl Interpolation {
-    /// What suits samples at these wavelengths.
+    /// The method suited to samples at these wavelengths.
     pub(super) fn for_samples(wavelengths_nm: &[f64]) -> Self {
         if wavelengths_nm.len() >= 6 && even_step_nm(wavelengths_nm).is_some() {
             Self::Sprague
@@ -23,7 +23,7 @@ impl Interpolation {
         }
     }
 
-    /// `linear` or `sprague`, as records say it.
+    /// `linear` or `sprague`, as in records.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -33,7 +33,7 @@ impl Interpolation {
     }
 }
 
-/// The step of wavelengths that are evenly spaced, at least two.
+/// The step of at least two evenly spaced wavelengths; `None` if they are uneven.
 pub(super) fn even_step_nm(wavelengths_nm: &[f64]) -> Option<f64> {
     let &[first_nm, .., last_nm] = wavelengths_nm else { return None };
     let step_nm = (last_nm - first_nm) / (wavelengths_nm.len() - 1) as f64;
@@ -41,15 +41,16 @@ pub(super) fn even_step_nm(wavelengths_nm: &[f64]) -> Option<f64> {
     wavelengths_nm.iter().enumerate().all(even).then_some(step_nm)
 }
 
-/// Two samples before the first of six even ones, the farther one first; CIE 167:2005, table 1. Reversed they
-/// are those behind the last ones.
+/// Coefficients of the two samples that extrapolate before six evenly spaced ones, the farther one first; CIE
+/// 167:2005, table 1. Reversed they extrapolate beyond the last six.
 #[rustfmt::skip]
 const BEFORE: [[f64; 6]; 2] = [
     [884.0, -1960.0, 3033.0, -2648.0, 1080.0, -180.0],
     [508.0, -540.0, 488.0, -367.0, 144.0, -24.0],
 ];
 
-/// Coefficients of x, x², .. x⁵ between the third and the fourth of six even samples; CIE 167:2005, eq. (1).
+/// Coefficients of x, x², .. x⁵ between the third and fourth of six evenly spaced samples; CIE 167:2005,
+/// eq. (1).
 #[rustfmt::skip]
 const POLYNOMIAL: [[f64; 6]; 5] = [
     [2.0, -16.0, 0.0, 16.0, -2.0, 0.0],
@@ -59,15 +60,15 @@ const POLYNOMIAL: [[f64; 6]; 5] = [
     [-5.0, 25.0, -50.0, 50.0, -25.0, 5.0],
 ];
 
-/// Sprague's value at the share `x`, 0..1, of the way from sample `left` to the next one, of at least six
-/// even samples.
+/// Sprague's value at the fraction `x`, 0..1, of the way from sample `left` to the next, for at least six
+/// evenly spaced samples.
 pub(super) fn sprague(samples: &[f64], left: usize, x: f64) -> f64 {
     let around: [f64; 6] = std::array::from_fn(|k| sample(samples, left as isize + k as isize - 2));
     let horner = |sum, row| (sum + dot(row, around) / 24.0) * x;
     around[2] + POLYNOMIAL.into_iter().rev().fold(0.0, horner)
 }
 
-/// A sample, or one of the two that continue the samples at either end.
+/// A sample, or one of the two extrapolated ones at either end.
 fn sample(samples: &[f64], at: isize) -> f64 {
     let count = samples.len() as isize;
     match at {

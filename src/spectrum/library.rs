@@ -1,4 +1,4 @@
-//! The built-in spectra of `share/`, parsed only when named; `share/README.md` has origin and licence of
+//! The built-in spectra of `share/`, parsed only when named; `share/README.md` gives origin and licence of
 //! each.
 
 use std::sync::OnceLock;
@@ -9,7 +9,7 @@ use super::tables::builtin;
 use super::{ClearSky, Spectrum, Sun, black_body, cameras, daylight, munsell, own};
 use crate::error::{Error, Result};
 
-/// A table embedded in the program, with the file it was made from.
+/// A table embedded in the program, with the file that it comes from.
 macro_rules! shared {
     ($file:literal) => {
         builtin(concat!("share/", $file), include_str!(concat!("../../share/", $file)))
@@ -79,7 +79,7 @@ const REFLECTANCE_SETS: [ReflectanceSet; 4] = [
     },
 ];
 
-/// Names and one-line descriptions of what is built in, and of the files in the directory `VFOLD_DATA`.
+/// Names and one-line descriptions of built-in spectra, and of the files in the directory `VFOLD_DATA`.
 ///
 /// # Errors
 /// [`Error::File`] if that directory cannot be read.
@@ -101,7 +101,7 @@ pub fn list(what: What) -> Result<Vec<(String, String)>> {
     Ok(rows)
 }
 
-/// Names of what is built in, without those that stand for any of a kind, such as `daylight:CCT` and `2856K`.
+/// Names of built-in spectra, without those that stand for a family, such as `daylight:CCT` and `2856K`.
 ///
 /// # Errors
 /// Only if the embedded tables are damaged.
@@ -110,7 +110,7 @@ pub fn built_in(what: What) -> Result<Vec<String>> {
     Ok(listed(what)?.into_iter().map(|(name, _)| name).filter(|name| !is_of_many(name)).collect())
 }
 
-/// Whether something built in is called `name`.
+/// True if a built-in spectrum is called `name`.
 ///
 /// # Example
 /// ```
@@ -122,7 +122,7 @@ pub fn is_built_in(what: What, name: &str) -> bool {
     find(what, name).is_ok_and(|found| found.is_some())
 }
 
-/// What is built in.
+/// Names and descriptions of built-in spectra.
 fn listed(what: What) -> Result<Vec<(String, String)>> {
     Ok(match what {
         What::Cameras => listed_cameras(),
@@ -145,7 +145,7 @@ fn rows<'a>(rows: impl Iterator<Item = (&'a str, &'a str)>) -> Vec<(String, Stri
     rows.map(|(name, description)| (name.to_owned(), description.to_owned())).collect()
 }
 
-/// The first three, then those of rawtoaces-data but for one that is among the three.
+/// The first three, then those of rawtoaces-data except one that is among the three.
 fn listed_cameras() -> Vec<(String, String)> {
     let first = rows(CAMERAS.iter().map(|camera| (camera.name, camera.description)));
     let measured = cameras::measured_cameras().map(|camera| (camera.name(), camera.description()));
@@ -166,7 +166,7 @@ fn description(illuminant: &str) -> &'static str {
     }
 }
 
-/// Parsed once: all likely lights are looked up one by one.
+/// Parsed once, as all candidate lights are looked up one by one.
 fn cie_illuminants() -> Result<&'static [Spectrum]> {
     static PARSED: OnceLock<Vec<Spectrum>> = OnceLock::new();
     if let Some(parsed) = PARSED.get() {
@@ -180,7 +180,7 @@ fn members_of(set: &str, members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
     Ok(members.into_iter().map(|member| member.renamed(|patch| format!("{set}:{patch}"))).collect())
 }
 
-/// The built-in spectra called `name`: a set, a member, an illuminant, the channels of a camera; `None` if
+/// The built-in spectra called `name`: a set, a member, an illuminant or the channels of a camera; `None` if
 /// there are none.
 pub(super) fn find(what: What, name: &str) -> Result<Option<Vec<Spectrum>>> {
     match what {
@@ -200,7 +200,7 @@ pub(super) fn find(what: What, name: &str) -> Result<Option<Vec<Spectrum>>> {
     }
 }
 
-/// All members if `name` is the set's, else the one member of that name.
+/// All members if `name` is the set's, else the member of that name.
 fn members_called(name: &str, mut members: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
     if !name.contains(':') {
         return Ok(members);
@@ -221,7 +221,7 @@ fn illuminant(name: &str) -> Result<Option<Spectrum>> {
     }
 }
 
-/// An error of the sun's place that calls it the sky's, as it was given.
+/// An error in the sun's position, renamed to the sky for which it was given.
 fn of_sky(error: Error) -> Error {
     match error {
         Error::Spectrum { name, problem, remedy } => {
@@ -231,7 +231,7 @@ fn of_sky(error: Error) -> Error {
     }
 }
 
-/// One of the tables, or daylight or a black body of a temperature.
+/// A tabulated illuminant, or daylight or a black body of a given temperature.
 fn cie_illuminant(name: &str) -> Result<Option<Spectrum>> {
     if let Some(temperature_k) = black_body::temperature_k(name) {
         return black_body::black_body(temperature_k).map(Some);
@@ -263,7 +263,7 @@ pub fn camera_by_exif(make: &str, model: &str) -> Option<String> {
     first.or_else(|| cameras::by_exif(make, model).map(|camera| camera.name()))
 }
 
-/// Names of other built-in measurements of the model that the built-in camera `name` was measured on.
+/// Names of other built-in measurements of the camera model behind the built-in camera `name`.
 ///
 /// # Example
 /// ```
@@ -288,8 +288,8 @@ pub fn other_measurements(name: &str) -> Vec<String> {
     others
 }
 
-/// Whether the built-in camera `name` was measured on another model than the one that writes these EXIF
-/// fields Make and Model into its pictures; not where there is no such camera, or the picture names no model.
+/// True if the built-in camera `name` was measured on another model than the one that writes these EXIF
+/// fields Make and Model into its pictures; false if there is no such camera, or the picture names no model.
 ///
 /// # Example
 /// ```
@@ -317,7 +317,7 @@ pub fn is_other_camera(name: &str, make: &str, model: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// By their pictures, by their names, by other names, by another measurement, by the sensor.
+    /// Cameras by the EXIF data of their pictures, by name, by alias, by another measurement, and by sensor.
     #[test]
     fn cameras_are_told_from_others() {
         let (canon, nikon) = ("Canon", "NIKON CORPORATION");

@@ -1,8 +1,8 @@
 //! Spectra: reflectances, illuminants and camera sensitivities, tabulated on any wavelengths.
 //!
-//! Every table is brought to the scene's [`WavelengthGrid`] by [`Spectrum::on`]; the built-in ones and the
-//! files are found by [`spec`], which knows the SPEC notation of the command line. Nothing here knows
-//! geometry or colour.
+//! [`Spectrum::on`] brings every table to the scene's [`WavelengthGrid`]; [`spec`], which implements the SPEC
+//! notation of the command line, finds built-in spectra and files. Nothing here knows about geometry or
+//! colour.
 
 mod black_body;
 mod cameras;
@@ -41,10 +41,10 @@ use grid::check_rising;
 use interpolation::sprague;
 use std::sync::Arc;
 
-/// The illuminant of a fold or photograph of which nobody stated one.
+/// The illuminant of a fold or photograph for which none was stated.
 pub const ASSUMED_LIGHT: &str = "D65";
 
-/// What stands for an illuminant that nobody knows: evidence finds it.
+/// Name of an unknown illuminant, which is inferred from the evidence.
 pub const UNKNOWN_LIGHT: &str = "unknown";
 
 /// A quantity tabulated over wavelength, with an [`Interpolation`] between its samples.
@@ -53,19 +53,19 @@ pub const UNKNOWN_LIGHT: &str = "unknown";
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     name: String,
-    /// Shared, because the columns of one table have the same wavelengths.
+    /// Shared, because all columns of a table have the same wavelengths.
     wavelengths_nm: Arc<[f64]>,
     values: Vec<f64>,
     interpolation: Interpolation,
-    /// What no value between the samples exceeds unless they do: 1 for reflectances.
+    /// Upper bound on values between samples, unless the samples exceed it: 1 for reflectances.
     ceiling: f64,
     note: Option<Arc<str>>,
 }
 
-/// What a spectrum is where its table ends.
+/// Value of a spectrum beyond the end of its table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outside {
-    /// Nothing: right for sensitivities, which are measured as far as there is something to measure.
+    /// Zero: right for sensitivities, which are measured as far as they are noticeable.
     Zero,
     /// Unknown, hence an error: right for reflectances and illuminants.
     Refuse,
@@ -76,10 +76,10 @@ impl Spectrum {
     ///
     /// # Arguments
     /// - `wavelengths_nm`: nm, strictly increasing, at least two.
-    /// - `values`: finite, as many.
+    /// - `values`: finite, one per wavelength.
     ///
     /// # Errors
-    /// [`Error::Grid`] or [`Error::Spectrum`] if the samples are not so.
+    /// [`Error::Grid`] or [`Error::Spectrum`] if the samples do not satisfy this.
     ///
     /// # Example
     /// ```
@@ -105,7 +105,7 @@ impl Spectrum {
 
     /// The same `value` at every wavelength.
     ///
-    /// Two samples that enclose every grid make it, so that nothing else has to know of flat spectra.
+    /// Two samples that enclose every grid, so that flat spectra need no special treatment.
     pub fn flat(name: impl Into<String>, value: f64) -> Self {
         Self::from_table(name.into(), [0.0, f64::MAX].into(), vec![value; 2])
     }
@@ -116,12 +116,12 @@ impl Spectrum {
         Self { name, wavelengths_nm, values, interpolation, ceiling: f64::INFINITY, note: None }
     }
 
-    /// The same samples joined by lines.
+    /// The same samples with linear interpolation.
     fn linear(self) -> Self {
         Self { interpolation: Interpolation::Linear, ..self }
     }
 
-    /// The same samples as those of a reflectance, which stays below 1 between them.
+    /// The same samples as a reflectance, which does not exceed 1 between them.
     #[must_use]
     pub fn as_reflectance(self) -> Self {
         Self { ceiling: 1.0, ..self }
@@ -135,7 +135,7 @@ impl Spectrum {
         Self { name: name(&self.name), ..self }
     }
 
-    /// What the spectrum is called: `set:member` if built in, else after its file and column.
+    /// Name of the spectrum: `set:member` if built in, else derived from its file and column.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -153,8 +153,8 @@ impl Spectrum {
         &self.values
     }
 
-    /// What was done to the samples as they were read, such as `paint.csv: percent read as fractions`; for
-    /// the user to see.
+    /// Conversions made when the samples were read, such as `paint.csv: percent read as fractions`, for the
+    /// user to see.
     #[must_use]
     pub fn note(&self) -> Option<&str> {
         self.note.as_deref()
@@ -166,16 +166,16 @@ impl Spectrum {
         (self.wavelengths_nm[0], self.wavelengths_nm[self.wavelengths_nm.len() - 1])
     }
 
-    /// The values at the grid's wavelengths: the samples themselves where there are any, else interpolated.
+    /// The values at the grid's wavelengths: samples where they exist, else interpolated.
     ///
-    /// Between samples that are 0 or more no value is below 0, and a reflectance between two that are at most
-    /// 1 is not above 1, however far the polynomial may swing.
+    /// Between samples of 0 or more no value is below 0, and between two samples of at most 1 a reflectance
+    /// is not above 1, however far the polynomial overshoots.
     ///
     /// # Source
-    /// CIE 167:2005 for even samples ([`Interpolation::Sprague`]).
+    /// CIE 167:2005 for evenly spaced samples ([`Interpolation::Sprague`]).
     ///
     /// # Errors
-    /// [`Error::Spectrum`] with both ranges if the grid reaches beyond the samples and `outside` is
+    /// [`Error::Spectrum`] with both ranges if the grid extends beyond the samples and `outside` is
     /// [`Outside::Refuse`].
     ///
     /// # Example
@@ -198,7 +198,7 @@ impl Spectrum {
                 remedy: "choose a grid within the samples or extend the table".into(),
             });
         }
-        // both run upwards: walking along is several times faster than a search for each wavelength
+        // both increase: stepping along is several times faster than a search for each wavelength
         let (last, mut right) = (self.values.len() - 1, 1);
         let value_at = |&nm: &f64| {
             while right < last && self.wavelengths_nm[right] < nm {
@@ -209,8 +209,8 @@ impl Spectrum {
         Ok(grid.wavelengths_nm().iter().map(value_at).collect())
     }
 
-    /// How [`Spectrum::on`] finds values on the grid; none where every wavelength of the grid is that of a
-    /// sample, or lies beyond them.
+    /// The interpolation that [`Spectrum::on`] uses on the grid; `None` if every wavelength of the grid is
+    /// that of a sample, or lies beyond the samples.
     #[must_use]
     pub fn interpolation(&self, grid: &WavelengthGrid) -> Option<Interpolation> {
         let (first_nm, last_nm) = self.range_nm();
@@ -222,7 +222,7 @@ impl Spectrum {
         (!is_flat && grid.wavelengths_nm().iter().any(between)).then_some(self.interpolation)
     }
 
-    /// The value at `nm` between the samples `right - 1` and `right`, 0 beyond them.
+    /// The value at `nm` between the samples `right - 1` and `right`; 0 beyond them.
     fn between(&self, right: usize, nm: f64) -> f64 {
         let (a_nm, b_nm) = (self.wavelengths_nm[right - 1], self.wavelengths_nm[right]);
         if nm < a_nm || nm > b_nm {
@@ -279,7 +279,7 @@ mod tests {
         }
     }
 
-    /// Without bounds Sprague's polynomial goes from -0.06 to 1.06 here.
+    /// Without bounds Sprague's polynomial ranges from -0.06 to 1.06 here.
     #[test]
     fn a_reflectance_stays_between_0_and_1() {
         let nm: Vec<f64> = (0..8).map(|i| 400.0 + 10.0 * f64::from(i)).collect();

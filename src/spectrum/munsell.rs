@@ -1,7 +1,7 @@
-//! The 1269 matt chips of the Munsell book, measured at the University of Eastern Finland.
+//! The 1269 matte chips of the Munsell book, measured at the University of Eastern Finland.
 //!
 //! The set behind the Parkkinen basis of the paper's section 5C, 380..780 nm by 5. `share/make-munsell.rs`
-//! froze the arrays from the crate `colorimetry`.
+//! exported the arrays from the crate `colorimetry`.
 
 use super::{Spectrum, WavelengthGrid};
 use crate::error::{Error, Result};
@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 const NAMES: &str = include_str!("../../share/munsell1269.txt");
 const REFLECTANCES: &[u8] = include_bytes!("../../share/munsell1269.npy");
-/// The array holds reflectance in this fraction of 1.
+/// Unit of the reflectances in the array, as a fraction of 1.
 const UNIT: f64 = 1.0 / 50_000.0;
 
 /// All chips, named like `munsell:5R6/12`, in the order of the book.
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
     use colorimetry::colorant::MunsellCollection;
 
-    /// The crate holds single precision.
+    /// The crate stores single precision.
     #[test]
     fn equal_the_crates_chips() {
         let chips = chips().unwrap();

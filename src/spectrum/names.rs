@@ -1,4 +1,4 @@
-//! Names of spectra: which are the same, and which might have been meant.
+//! Names of spectra: which are equal, and which may have been meant.
 
 use crate::error::Error;
 
@@ -13,7 +13,7 @@ pub enum What {
     Reflectances,
 }
 
-/// Upper and lower case are the same, and `5R 6/12` is `5R6/12`.
+/// Ignores case and spaces: `5R 6/12` is `5R6/12`.
 pub(super) fn same_name(a: &str, b: &str) -> bool {
     plain(a).eq(plain(b))
 }
@@ -29,7 +29,7 @@ pub(super) fn words(text: &str) -> impl Iterator<Item = String> {
         .map(str::to_lowercase)
 }
 
-/// The error for a name that is not among `known`, with the nearest of those.
+/// The error for a name that is not among `known`, with the nearest of them.
 pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'a str>) -> Error {
     let (kind, list) = match what {
         What::Cameras => ("camera", "cameras"),
@@ -42,8 +42,7 @@ pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'
     Error::UnknownName { kind, name: name.to_owned(), hint }
 }
 
-/// Up to three of `known`, nearest first, that could be meant by `name`: a few letters off, or `name` is part
-/// of them.
+/// Up to three of `known`, nearest first, that `name` may mean: they differ by a few letters, or contain it.
 pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut near: Vec<_> = known.map(|known| (edits(name, known), known)).collect();
     near.retain(|&(edits, known)| edits <= 1 + name.len() / 3 || known.contains(&name.to_lowercase()));
@@ -51,7 +50,7 @@ pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> V
     near.iter().take(3).map(|&(_, known)| known).collect()
 }
 
-/// Levenshtein's distance, upper and lower case alike.
+/// Levenshtein distance, ignoring case.
 fn edits(a: &str, b: &str) -> usize {
     let (a, b) = (a.to_lowercase(), b.to_lowercase());
     let mut row: Vec<usize> = (0..=b.chars().count()).collect();

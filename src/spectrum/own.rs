@@ -1,7 +1,8 @@
-//! A user's own spectra: the files in the directory that the environment variable `VFOLD_DATA` names.
+//! The user's own spectra: the files in the directory named by the environment variable `VFOLD_DATA`.
 //!
-//! `paint.csv` in it is called `paint`, its column `red` `paint:red`, as a built-in set is. A built-in name
-//! stays what it is, so that a record means the same everywhere; the file is then reached by its path.
+//! A file `paint.csv` there is called `paint`, and its column `red` is `paint:red`, as in a built-in set.
+//! Built-in names take precedence, so that a record means the same everywhere; the file is then reached by
+//! its path.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +15,7 @@ pub(super) const VARIABLE: &str = "VFOLD_DATA";
 
 /// A file of the directory.
 pub(super) struct OwnFile {
-    /// What it is called: its name without the ending.
+    /// Its name without the ending.
     pub name: String,
     pub path: String,
 }
@@ -26,7 +27,7 @@ impl OwnFile {
     }
 }
 
-/// The files by name, none if the variable is not set.
+/// The files by name; empty if the variable is not set.
 ///
 /// # Errors
 /// [`Error::File`] if the directory cannot be read.
@@ -52,10 +53,10 @@ fn files_in(folder: &Path) -> Result<Vec<OwnFile>> {
     Ok(files)
 }
 
-/// The file called `name`, or that of `file:member` with the member.
+/// The file called `name`, or for `file:member` the file and the member.
 ///
 /// # Errors
-/// [`Error::Spectrum`] if two files have the name.
+/// [`Error::Spectrum`] if two files have that name.
 pub(super) fn find<'a>(
     files: &'a [OwnFile],
     name: &'a str,

@@ -1,27 +1,27 @@
-//! What a spectrum must be to be used as a reflectance, an illuminant or a sensitivity.
+//! Requirements on a spectrum used as a reflectance, an illuminant or a sensitivity.
 
 use super::Spectrum;
 use crate::error::{Error, Result};
 
-/// Negative sensitivities up to this fraction of the peak are measurement noise about zero.
+/// Negative sensitivities up to this fraction of the peak are noise around zero.
 const NOISE_OF_PEAK: f64 = 1e-3;
 
-/// What the channels of a camera see of each wavelength.
+/// Spectral sensitivities of the channels of a camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivities {
-    /// The SPEC the camera was named by.
+    /// The SPEC of the camera.
     pub name: String,
-    /// Relative sensitivities, 0 or more, all on one scale; one or more channels, R, G and B in the built-in
-    /// ones.
+    /// Relative sensitivities, 0 or more, on a common scale; one or more channels, R, G and B in built-in
+    /// cameras.
     pub channels: Vec<Spectrum>,
 }
 
 impl Sensitivities {
-    /// The camera of these channels.
+    /// A camera with these channels.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if a sensitivity is below 0 by more than a thousandth of the camera's peak, which
-    /// is taken for noise and set to 0, or zero throughout.
+    /// [`Error::Spectrum`] if a channel is zero throughout, or a sensitivity is below 0 by more than a
+    /// thousandth of the camera's peak. Smaller negative values are noise and set to 0.
     ///
     /// # Example
     /// ```
@@ -53,7 +53,7 @@ pub(super) fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
     Err(bad(spectrum.name(), format!("reflectance {value} is outside 0..1"), remedy))
 }
 
-/// Refuses values below 0: a sheet may send out more light than white does.
+/// Refuses values below 0; a sheet may send out more light than white.
 pub(super) fn check_radiance_factor(spectrum: &Spectrum) -> Result<()> {
     match spectrum.values().iter().find(|value| **value < 0.0) {
         Some(value) => {
@@ -64,7 +64,7 @@ pub(super) fn check_radiance_factor(spectrum: &Spectrum) -> Result<()> {
     }
 }
 
-/// Refuses values below `least`, and darkness.
+/// Refuses values below `least`, and spectra without any power.
 pub(super) fn check_power(spectrum: &Spectrum, least: f64) -> Result<()> {
     if let Some(value) = spectrum.values().iter().find(|value| **value < least) {
         return Err(bad(spectrum.name(), format!("{value} is below 0"), "give values of 0 or more"));

@@ -1,8 +1,8 @@
-//! SPEC, the way the command line names spectra.
+//! SPEC, the command line's notation for spectra.
 //!
 //! In this order: a number (flat), a built-in name, `set:member`, `daylight:CCT`, `2856K`, `sun:WHERE` or
 //! `sky:WHERE`, the same in the directory `VFOLD_DATA`, a file, one column of a file as `file.csv:column`. A
-//! file called like a built-in name is reached as `./D65`.
+//! file with a built-in name is reached as `./D65`.
 
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
 use super::names::{What, unknown};
@@ -14,7 +14,7 @@ use crate::message::printable;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The reflectances that `spec` names: every member of a set, every column of a file.
+/// The reflectances named by `spec`: every member of a set, every column of a file.
 ///
 /// # Errors
 /// As [`Specs::reflectances`]; JSON is not read.
@@ -31,7 +31,7 @@ pub fn reflectances(spec: &str) -> Result<Vec<Spectrum>> {
     Specs::default().reflectances(spec)
 }
 
-/// The illuminant that `spec` names, relative power.
+/// The illuminant named by `spec`, relative power.
 ///
 /// # Errors
 /// As [`Specs::illuminant`]; JSON is not read.
@@ -47,7 +47,7 @@ pub fn illuminant(spec: &str) -> Result<Spectrum> {
     Specs::default().illuminant(spec)
 }
 
-/// The camera that `spec` names; a number is one channel that sees all wavelengths alike.
+/// The camera named by `spec`; a number is one channel with uniform sensitivity.
 ///
 /// # Errors
 /// As [`Specs::camera`]; JSON is not read.
@@ -62,10 +62,10 @@ pub fn camera(spec: &str) -> Result<Sensitivities> {
     Specs::default().camera(spec)
 }
 
-/// Larger parts of white's light than sheets send out are percent.
+/// Largest radiance factor of a sheet: larger values are percent.
 const FLUORESCENCE_MAX: f64 = 2.0;
 
-/// Finds what a SPEC names.
+/// Finds the spectra that a SPEC names.
 #[derive(Clone, Copy, Debug)]
 pub struct Specs {
     json: JsonReader,
@@ -79,21 +79,20 @@ impl Default for Specs {
 }
 
 impl Specs {
-    /// The same with a reader of JSON files.
+    /// With a reader of JSON files.
     #[must_use]
     pub fn with_json(json: JsonReader) -> Self {
         Self { json, percent: None }
     }
 
-    /// The same for files of which it is known whether reflectances are in percent where the file does not
-    /// say it.
+    /// The same, with `percent` saying whether reflectances are in percent in files that do not say it.
     #[must_use]
     pub fn in_percent(self, percent: Option<bool>) -> Self {
         Self { percent, ..self }
     }
 
-    /// The reflectances that `spec` names: every member of a set, every column of a file; what a file has in
-    /// percent, in fractions.
+    /// The reflectances named by `spec`: every member of a set, every column of a file. Percent is converted
+    /// to fractions.
     ///
     /// # Errors
     /// [`crate::Error::UnknownName`] if nothing has that name, [`crate::Error::File`] or
@@ -105,11 +104,11 @@ impl Specs {
         Ok(spectra.into_iter().map(Spectrum::as_reflectance).collect())
     }
 
-    /// Parts of white's light that sheets send out, which `spec` names as it names reflectances. Those of
-    /// sheets that fluoresce may be more than 1; above 2, or where that is said, they are in percent.
+    /// Radiance factors named by `spec`, relative to white, found as reflectances are. Those of fluorescent
+    /// sheets may exceed 1; above 2, or where stated, they are in percent.
     ///
     /// # Errors
-    /// As [`Specs::reflectances`]; values below 0 alone are refused.
+    /// As [`Specs::reflectances`], except that only values below 0 are refused.
     pub fn radiance_factors(self, spec: &str) -> Result<Vec<Spectrum>> {
         let mut spectra = self.in_percent(self.percent.or(Some(false))).find(What::Reflectances, spec)?;
         let is_large = spectra.iter().flat_map(Spectrum::values).any(|value| *value > FLUORESCENCE_MAX);
@@ -120,10 +119,10 @@ impl Specs {
         Ok(spectra)
     }
 
-    /// The illuminant that `spec` names, relative power.
+    /// The illuminant named by `spec`, relative power.
     ///
     /// # Errors
-    /// As [`Specs::reflectances`]; a file with several columns; a power below 0 or zero throughout.
+    /// As [`Specs::reflectances`]; a file with several columns; a power that is negative, or zero throughout.
     pub fn illuminant(self, spec: &str) -> Result<Spectrum> {
         let mut columns = self.find(What::Illuminants, spec)?;
         let illuminant = columns.swap_remove(0);
@@ -135,17 +134,17 @@ impl Specs {
         Ok(illuminant)
     }
 
-    /// All illuminants that `spec` names: every column of a file.
+    /// All illuminants named by `spec`: every column of a file.
     ///
     /// # Errors
-    /// As [`Specs::illuminant`], but that there may be several.
+    /// As [`Specs::illuminant`], except that there may be several.
     pub fn illuminants(self, spec: &str) -> Result<Vec<Spectrum>> {
         let lights = self.find(What::Illuminants, spec)?;
         lights.iter().try_for_each(|light| check_power(light, 0.0))?;
         Ok(lights)
     }
 
-    /// The camera that `spec` names.
+    /// The camera named by `spec`.
     ///
     /// # Errors
     /// As [`Specs::reflectances`] and [`Sensitivities::new`].
@@ -153,7 +152,7 @@ impl Specs {
         Sensitivities::new(spec, self.find(What::Cameras, spec)?)
     }
 
-    /// The spectra that `spec` names, at least one, not checked for what they are used as.
+    /// The spectra named by `spec`, at least one, not checked for their use.
     fn find(self, what: What, spec: &str) -> Result<Vec<Spectrum>> {
         if let Some(value) = spec.parse().ok().filter(|value: &f64| value.is_finite()) {
             return Ok(vec![Spectrum::flat(spec, value)]);
@@ -168,7 +167,7 @@ impl Specs {
         }
     }
 
-    /// The spectra of the file, or the member of a file, that `spec` names.
+    /// The spectra of the file, or the member of a file, named by `spec`.
     fn named_file(self, what: What, spec: &str) -> Result<Vec<Spectrum>> {
         let (path, member) = path_and_member(spec);
         if !Path::new(path).exists() && !path.contains('/') && !has_ending(path, &ENDINGS) {
@@ -190,7 +189,7 @@ impl Specs {
     }
 }
 
-/// The file that `spec` begins with, and what follows its colon; a member's name may have colons as well.
+/// The file at the beginning of `spec`, and the member after its colon, whose name may contain colons, too.
 fn path_and_member(spec: &str) -> (&str, Option<&str>) {
     let exists = |path: &str| Path::new(path).exists();
     let mut splits = spec.match_indices(':').map(|(at, _)| (&spec[..at], &spec[at + 1..]));
@@ -200,14 +199,14 @@ fn path_and_member(spec: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// Says that a built-in name hides a file.
+/// Adds a note that a built-in name hides a file.
 fn noted_as_built_in(name: &str, file: &OwnFile, spectra: Vec<Spectrum>) -> Vec<Spectrum> {
     let (hidden, variable) = (file.file_name(), own::VARIABLE);
     let note = Arc::from(format!("{name}: the built-in one; {hidden} of {variable} is reached by its path"));
     spectra.into_iter().map(|spectrum| spectrum.noted(Some(&note))).collect()
 }
 
-/// The column asked for, or all of them.
+/// The requested column, or all of them.
 fn column_called(path: &str, column: Option<&str>, mut spectra: Vec<Spectrum>) -> Result<Vec<Spectrum>> {
     let Some(column) = column else { return Ok(spectra) };
     let column = printable(column);
@@ -219,7 +218,7 @@ fn column_called(path: &str, column: Option<&str>, mut spectra: Vec<Spectrum>) -
     Ok(vec![spectra.swap_remove(at)])
 }
 
-/// `red.csv` holds `red` if it has one column, else `red:COLUMN`.
+/// The spectrum of `red.csv` is `red` if it is the only column, else `red:COLUMN`.
 fn called_after_file(path: &str, column: Option<&str>, spectra: Vec<Spectrum>) -> Vec<Spectrum> {
     let stem = Path::new(path).file_stem().map_or(path.into(), |stem| stem.to_string_lossy());
     let alone = spectra.len() == 1 && column.is_none();
@@ -233,7 +232,7 @@ mod tests {
     use crate::error::Error;
     use std::fs::write;
 
-    /// Runs `test` with the path of a CSV file of that text.
+    /// Runs `test` with the path of a CSV file with this text.
     fn with_csv(text: &str, test: impl FnOnce(&str)) {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("paint.csv");

@@ -1,4 +1,4 @@
-//! Where the sun stands: told by its angle, or computed for a place and a time.
+//! Position of the sun: stated as an angle, or computed for a place and a time.
 
 use solar_positioning::time::JulianDate;
 use solar_positioning::{Location, RefractionCorrection, SolarPositions, delta_t};
@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sun {
     zenith_deg: f64,
-    /// Of the year, from 1; none if only the angle is known.
+    /// Day of the year, from 1; `None` if only the angle is known.
     day: Option<u32>,
 }
 
@@ -27,15 +27,15 @@ impl Sun {
         sun.above_horizon(&format!("sun:{zenith_deg}deg"), "give an angle from 0, overhead, to less than 90")
     }
 
-    /// The sun that the words of a SPEC after `sun:` tell: `40deg`, or latitude, longitude and time. The
-    /// atmosphere's refraction is that of 15 °C at sea level.
+    /// The sun given by the words of a SPEC after `sun:`, either `40deg` or latitude, longitude and time.
+    /// Atmospheric refraction is that of 15 °C at sea level.
     ///
     /// # Source
     /// I. Reda, A. Andreas, "Solar position algorithm for solar radiation applications", *Solar Energy* 76
-    /// (2004), p. 577, by the crate solar-positioning.
+    /// (2004), p. 577, as implemented in the crate solar-positioning.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if place or time cannot be, or the sun is below the horizon there and then.
+    /// [`Error::Spectrum`] if place or time is impossible, or the sun is below the horizon there and then.
     ///
     /// # Example
     /// ```
@@ -81,13 +81,13 @@ impl Sun {
         )
     }
 
-    /// The sun of a day of the year, from 1.
+    /// The same sun on this day of the year, from 1.
     #[must_use]
     pub fn on_day(self, day: u32) -> Self {
         Self { day: Some(day), ..self }
     }
 
-    /// Angle from the zenith as it is seen, degrees.
+    /// Apparent angle from the zenith, degrees.
     #[must_use]
     pub fn zenith_deg(&self) -> f64 {
         self.zenith_deg
@@ -103,7 +103,8 @@ impl Sun {
         Err(Error::Spectrum { name: name.to_owned(), problem, remedy: remedy.to_owned() })
     }
 
-    /// Square of the mean distance over the day's; Spencer (1971), eqs. 2-2 and 2-3 of Bird and Riordan.
+    /// Square of the ratio of the mean distance to that of the day; Spencer (1971), eqs. 2-2 and 2-3 of Bird
+    /// and Riordan.
     pub(super) fn nearness(&self) -> f64 {
         let Some(day) = self.day else { return 1.0 };
         let turn = std::f64::consts::TAU * (f64::from(day) - 1.0) / 365.0;
@@ -111,13 +112,13 @@ impl Sun {
         1.00011 + 0.034221 * once.1 + 0.00128 * once.0 + 0.000719 * twice.1 + 7.7e-5 * twice.0
     }
 
-    /// How many times as much air as overhead; Kasten and Young, *Applied Optics* 28 (1989), p. 4735.
+    /// Air mass relative to that overhead; Kasten and Young, *Applied Optics* 28 (1989), p. 4735.
     #[must_use]
     pub fn air_mass(&self) -> f64 {
         1.0 / (self.cos() + 0.50572 * (96.07995 - self.zenith_deg).powf(-1.6364))
     }
 
-    /// How many times as much ozone as overhead, at a height of 22 km; eq. 2-10.
+    /// Ozone mass relative to that overhead, at a height of 22 km; eq. 2-10.
     pub(super) fn ozone_mass(&self) -> f64 {
         let height = 22.0 / 6370.0;
         (1.0 + height) / (self.cos().powi(2) + 2.0 * height).sqrt()
@@ -132,7 +133,7 @@ fn wrong(text: &str, problem: impl Into<String>, remedy: &str) -> Error {
     Error::Spectrum { name: format!("sun:{text}"), problem: problem.into(), remedy: remedy.to_owned() }
 }
 
-/// A time of a calendar, and how far it is ahead of UTC.
+/// A calendar time, and its offset from UTC.
 struct Moment {
     year: i32,
     month: u32,
@@ -144,7 +145,7 @@ struct Moment {
 }
 
 impl Moment {
-    /// Parses RFC 3339; seconds may be missing, and a blank or small letters stand for `T` and `Z`.
+    /// Parses RFC 3339; seconds may be omitted, and a space or lower case letters may replace `T` and `Z`.
     fn parse(text: &str) -> Option<Self> {
         let (date, rest) = text.split_once(['T', 't', ' '])?;
         let (time, ahead_h) = match rest.strip_suffix(['Z', 'z']) {
@@ -171,7 +172,7 @@ impl Moment {
         JulianDate::new(local.julian_date() - ahead_h / 24.0, delta_t_s)
     }
 
-    /// From 1; by the calendar of the place, which changes the sun's distance by less than 1e-4.
+    /// From 1; by the local calendar, which changes the sun's distance by less than 1e-4.
     fn day_of_year(&self) -> u32 {
         const BEFORE: [u32; 12] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
         let leap = self.year % 4 == 0 && (self.year % 100 != 0 || self.year % 400 == 0);
@@ -187,7 +188,7 @@ fn ahead_h(text: &str) -> Option<f64> {
     (hours <= 14 && minutes < 60).then(|| sign * (f64::from(hours) + f64::from(minutes) / 60.0))
 }
 
-/// A number of this many digits.
+/// A number with exactly `count` digits.
 fn digits(text: &str, count: usize) -> Option<u32> {
     let right = text.len() == count && text.bytes().all(|letter| letter.is_ascii_digit());
     right.then(|| text.parse().ok())?

@@ -1,21 +1,22 @@
-//! A panel's own coordinates: away from the crease, along it, along the normal.
+//! A panel's own coordinates: away from the crease, along it, and along the normal.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use crate::geometry::Fold;
 
-/// A panel, and where sun and eye are, in its own coordinates from the middle of the crease.
+/// A panel, and the positions of sun and eye in its own coordinates, whose origin is the middle of the
+/// crease.
 pub(super) struct Frame {
-    /// Towards the sun, length 1.
+    /// Unit vector towards the sun.
     pub sun: Vector3<f64>,
     /// The eye, in the fold's unit.
     pub eye: Vector3<f64>,
-    /// Depth of the panel, and of the other one.
+    /// Depth of this panel and of the other.
     pub depth: f64,
     pub other_depth: f64,
     /// Length of the crease.
     pub width: f64,
-    /// Sine and cosine of the opening.
+    /// Sine and cosine of the opening angle.
     pub sin: f64,
     pub cos: f64,
 }

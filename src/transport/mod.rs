@@ -1,10 +1,10 @@
-//! What a sheet that is not Lambertian sends to the eye more than a Lambertian one of the same albedo, all
+//! Radiance of a non-Lambertian sheet towards the eye minus that of a Lambertian sheet of the same albedo,
 //! over a fold.
 //!
-//! Eq. (4) with a reflection that depends on the directions: light that leaves one panel is followed towards
-//! each place of the other. What is reflected once is exact, and what is reflected twice is integrated over
-//! the directions at each [point](points); only what is reflected more often goes through flat [patches].
-//! Both are differences to the Lambertian sheet, whose light [`crate::response`] knows exactly.
+//! Eq. (4) with a direction-dependent reflection: light leaving one panel is traced to each place of the
+//! other. Single reflections are exact, and double ones are integrated over the directions at each
+//! [point](points); further reflections are computed between flat [patches]. The Lambertian sheet, solved
+//! exactly in [`crate::response`], is subtracted from both.
 
 mod frame;
 pub mod patches;
@@ -21,17 +21,17 @@ use frame::Frame;
 use patches::Patches;
 use points::Points;
 
-/// Radiance of every facet towards the eye beyond that of a Lambertian sheet of the same albedo: shapes by
+/// Radiance of every facet towards the eye minus that of a Lambertian sheet of the same albedo: shapes by
 /// facets by albedos.
 ///
 /// # Arguments
-/// - `sun`: direction towards the light, in the coordinates of [`Fold::panels`]; `eye`: where the camera
-///   stands, in the fold's unit.
-/// - `shapes`: of the sheet's reflection; `albedos`: for which the radiance is computed.
+/// - `sun`: direction towards the light, in the coordinates of [`Fold::panels`]; `eye`: position of the
+///   camera, in the fold's unit.
+/// - `shapes`: angular BRDFs; `albedos`: the albedos at which the radiance is computed.
 ///
 /// # Returns
-/// Means over the facets, panel by panel and row by row. A perfect diffuser that faces the sun, alone, has
-/// radiance 1.
+/// Facet means, panel by panel and row by row, relative to the radiance of an isolated perfect diffuser
+/// facing the sun.
 ///
 /// # Source
 /// Deeb et al., eq. (4), without its Lambertian assumption.

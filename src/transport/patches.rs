@@ -1,8 +1,9 @@
-//! Light that is reflected three times and more, between flat patches.
+//! Light reflected three times or more, computed between flat patches.
 //!
-//! `L(i → k)`, what patch i of one panel sends to patch k of the other, obeys
-//! `L(i → k) = f(sun, i → k) E + Σⱼ f(j → i → k) π F(i, j) L(j → i)`, F the form factors. Patches repeat
-//! along the crease: what lies between two directions depends on the row and on the columns' differences.
+//! `L(i → k)`, the light that patch i of one panel sends to patch k of the other, obeys
+//! `L(i → k) = f(sun, i → k) E + Σⱼ f(j → i → k) π F(i, j) L(j → i)` with the form factors F. Patches repeat
+//! along the crease: the angles between two directions depend only on the rows and the differences of
+//! columns.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -18,34 +19,34 @@ use crate::kernel::quadrature::{Lagrange, Rule};
 use crate::kernel::wedge::Wedge;
 use crate::sheet::{Angles, Shape};
 
-/// Where rows of patches begin and end, as shares of the panel's depth.
+/// Boundaries of the rows of patches, as fractions of the panel's depth.
 const EDGES: [f64; 5] = [0.0, 0.1, 0.3, 0.6, 1.0];
 const ROWS: usize = EDGES.len() - 1;
-/// Patches along the crease: it is across them that light near the crease varies most in direction.
+/// Patches along the crease, the direction in which light near the crease varies most in angle.
 const COLS: usize = 8;
 const COUNT: usize = ROWS * COLS;
-/// Differences of columns.
+/// Number of column differences.
 const SHIFTS: usize = 2 * COLS - 1;
-/// Directions from a row of patches to the other panel's patches, repeated along the crease.
+/// Directions from a row of patches to the patches of the other panel, repeated along the crease.
 const DIRECTIONS: usize = ROWS * SHIFTS;
-/// Places of a patch in each direction over which directions are averaged.
+/// Points per patch, in each dimension, over which directions are averaged.
 const PLACES: usize = 4;
-/// Most reflections that are followed one by one.
+/// Maximum number of reflections followed one by one.
 const REFLECTIONS: usize = 40;
-/// Light that is let go, relative to what the sun sends.
+/// Neglected light, relative to what the sun sends.
 const NEGLIGIBLE: f64 = 5e-5;
-/// Nodes of albedo: what three reflections and more add to a Lambertian sheet's light is little and smooth,
-/// but matters in dark sheets too.
+/// Albedo nodes: the contribution of three or more reflections is small and smooth, but matters for dark
+/// sheets, too.
 const NODES: usize = 7;
 
 /// The patches of both panels, with all directions between them.
 pub struct Patches {
     panels: [Panel; 2],
-    /// Angles of the distinct [`PAIRS`] of directions, row by row of patches.
+    /// Angles of the distinct [`PAIRS`] of directions, by row of patches.
     between: Vec<Angles>,
-    /// The same of panel 1 where it is another.
+    /// The same for panel 1 if its shape differs.
     between_1: Option<Vec<Angles>>,
-    /// Whether both panels send the same: the sun stands on the plane that halves a symmetric fold.
+    /// True if both panels send the same: the sun is on the bisecting plane of a symmetric fold.
     alike: bool,
     pooling: Pooling,
 }
@@ -54,22 +55,22 @@ pub struct Patches {
 struct Panel {
     /// Irradiance from the sun.
     lit: f64,
-    /// π times the form factor from each patch to each of the other panel.
+    /// π times the form factors from each patch to those of the other panel.
     factors: Vec<f32>,
-    /// From the sun, towards each patch of the other panel: row by row of directions.
+    /// From the sun towards each patch of the other panel, by row and direction.
     from_sun: Vec<Angles>,
-    /// From each patch of the other panel, towards the eye: patch by patch.
+    /// From each patch of the other panel towards the eye, by patch.
     to_eye: Vec<Angles>,
 }
 
-/// A shape's body and surface at a list of angles.
+/// Body and surface reflection of a shape at a list of angles.
 struct Parts {
     body: Vec<f32>,
     surface: Vec<f32>,
 }
 
 impl Patches {
-    /// Those of `fold`, in the light of a sun and before an eye that the frames know.
+    /// The patches of `fold`, with sun and eye taken from the frames.
     pub(super) fn new(fold: &Fold, frames: &[Frame; 2]) -> Self {
         let middles: Vec<f64> = EDGES.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
         let columns: Vec<f64> = (0..COLS).map(|col| (col as f64 + 0.5) / COLS as f64).collect();
@@ -86,23 +87,22 @@ impl Patches {
         }
     }
 
-    /// What the eye sees of light that was reflected three times or more: patches of both panels by nodes of
-    /// albedo, between which
-    /// [`shares`] interpolates.
+    /// Radiance towards the eye of light reflected three times or more: patches of both panels by albedo
+    /// nodes, between which [`shares`] interpolates.
     #[must_use]
     pub fn radiances(&self, shape: &Shape) -> Array2<f64> {
-        // the widest vectors that the processor has: each of their numbers is summed for itself, so that sums
-        // are the same with all
+        // Uses the widest vectors of the processor. Every lane is summed separately, so the results do not
+        // depend on the width.
         Arch::new().dispatch(Radiances { patches: self, shape })
     }
 
-    /// Means over the facets.
+    /// Facet means.
     #[must_use]
     pub fn pooled(&self, radiances: &Array2<f64>) -> Array2<f64> {
         self.pooling.pool(radiances)
     }
 
-    /// Light sent by each patch of either panel to each of the other after two reflections and more.
+    /// Light sent by each patch of either panel to each of the other after two or more reflections.
     #[inline(always)]
     fn sent(&self, direct: Vec<Vec<f32>>, matrices: [&Vec<f32>; 2]) -> Vec<Vec<f32>> {
         let first = total(&direct);
@@ -120,7 +120,7 @@ impl Patches {
             let last = std::mem::replace(&mut ratio, now / before.max(f64::MIN_POSITIVE));
             before = now;
             let tail = ratio.min(0.999) / (1.0 - ratio.min(0.999));
-            // the rest falls in proportion, by now
+            // from here on the light decays geometrically
             if now * tail < NEGLIGIBLE * first
                 || (ratio - last).abs() * now * tail * tail < NEGLIGIBLE * first
             {
@@ -142,12 +142,12 @@ struct Radiances<'a> {
 impl WithSimd for Radiances<'_> {
     type Output = Array2<f64>;
 
-    // what is inlined here takes those vectors, too; what is called does not
+    // Inlined functions are compiled for those vectors; called ones are not.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Array2<f64> {
         let Self { patches, shape } = self;
         let panels = &patches.panels;
-        // what panels send, of one if both send the same
+        // the sending panels: only one if both send the same
         let sending = &panels[..if patches.alike { 1 } else { 2 }];
         let sun: Vec<Parts> = sending.iter().map(|panel| Parts::of(shape, &panel.from_sun)).collect();
         let eye = panels.each_ref().map(|panel| Parts::of(shape, &panel.to_eye));
@@ -186,7 +186,7 @@ impl WithSimd for Radiances<'_> {
     }
 }
 
-/// The sum of all light, none of it taken for negative.
+/// Sum of the absolute values of all light.
 #[inline(always)]
 fn total(light: &[Vec<f32>]) -> f64 {
     let mut sums = [0.0; COUNT];
@@ -203,7 +203,7 @@ impl Parts {
         Self { body, surface }
     }
 
-    /// Those of all directions of each row of patches to all, from those of the distinct pairs.
+    /// Expands the distinct pairs to all pairs of directions, for each row of patches.
     fn of_pairs(&self) -> Self {
         let all = |distinct: &[f32]| {
             let mut all = Vec::with_capacity(ROWS * PAIRS.places.len());
@@ -215,7 +215,7 @@ impl Parts {
         Self { body: all(&self.body), surface: all(&self.surface) }
     }
 
-    /// The reflection in which the body counts `r`.
+    /// The body times `r`, plus the surface.
     #[inline(always)]
     fn mix(&self, r: f32, mixed: &mut [f32]) {
         for ((mixed, body), surface) in mixed.iter_mut().zip(&self.body).zip(&self.surface) {
@@ -224,12 +224,12 @@ impl Parts {
     }
 }
 
-/// The nodes of albedo.
+/// The albedo nodes.
 fn nodes() -> Vec<f64> {
     Rule::gauss_legendre(NODES).on(0.0, 1.0).map(|(albedo, _)| albedo).collect()
 }
 
-/// Shares of the nodes' values at these albedos: node by albedo.
+/// Interpolation weights of the nodes at these albedos: node by albedo.
 #[must_use]
 pub fn shares(albedos: &[f64]) -> Array2<f64> {
     let nodes = Lagrange::new(&nodes());
@@ -249,7 +249,7 @@ fn add(sums: &mut [Vec<f32>], light: &[Vec<f32>], weight: f32) {
 
 impl Panel {
     fn new(frame: &Frame, wedge: &Wedge, middles: &[f64], to: &[Vec<Vector3<f64>>]) -> Self {
-        // the kernel wants lengths in widths of a patch
+        // the kernel expects lengths in widths of a patch
         let unit = frame.width / COLS as f64;
         let row = |depth: f64, n: usize| EDGES[n] * depth / unit..EDGES[n + 1] * depth / unit;
         let (mut factors, mut shifts) = (vec![0.0_f32; COUNT * COUNT], [0.0; COLS]);
@@ -273,8 +273,7 @@ impl Panel {
         Self { lit: frame.lit(), factors, from_sun, to_eye }
     }
 
-    /// Light of the sun sent by each patch to each of the other panel, from the reflection along each
-    /// direction.
+    /// Sunlight sent by each patch to each of the other panel, given the reflection along each direction.
     #[inline(always)]
     fn direct(&self, from_sun: &[f32]) -> Vec<f32> {
         let lit = (PI * self.lit) as f32;
@@ -289,11 +288,11 @@ impl Panel {
         direct
     }
 
-    /// What this panel's patches send on of the light that the other's sent.
+    /// Light that this panel's patches reflect of what the other's sent.
     #[inline(always)]
     fn reflected(&self, light: &[f32], matrix: &[f32]) -> Vec<f32> {
         let mut reflected = Vec::with_capacity(COUNT * COUNT);
-        // by direction from which light comes, then by row towards which it goes
+        // by incoming direction, then by row of the outgoing one
         let (towards, _) = matrix.as_chunks::<SHIFTS>().0.as_chunks::<ROWS>();
         for (i, factors) in self.factors.as_chunks::<COUNT>().0.iter().enumerate() {
             let mut arriving = [0.0; COUNT];
@@ -321,13 +320,13 @@ impl Panel {
     }
 }
 
-/// Which direction of its row leads from patch `i` to patch `k` of the other panel.
+/// Index of the direction from patch `i` to patch `k` of the other panel, within its row.
 fn direction(i: usize, k: usize) -> usize {
     k / COLS * SHIFTS + (k % COLS + COLS - 1 - i % COLS)
 }
 
-/// Directions from the patches of each row to those of the other panel: means over the light between both,
-/// which lies between the directions of their middles only where they are far from each other.
+/// Directions from the patches of each row to those of the other panel: means over the exchanged light, which
+/// differ from the direction between the middles of nearby patches.
 fn directions(frame: &Frame) -> Vec<Vec<Vector3<f64>>> {
     let (gauss, hat) = (Rule::gauss_legendre(PLACES), Rule::gauss_hat(PLACES));
     let unit = frame.width / COLS as f64;
@@ -352,7 +351,7 @@ fn directions(frame: &Frame) -> Vec<Vec<Vector3<f64>>> {
     (0..ROWS).map(|row| ends.clone().map(|(other, shift)| mean(row, other, shift)).collect()).collect()
 }
 
-/// Angles of the distinct pairs of directions, row by row of patches.
+/// Angles of the distinct pairs of directions, by row of patches.
 fn pairs(to: &[Vec<Vector3<f64>>]) -> Vec<Angles> {
     let of_row = |to: &Vec<Vector3<f64>>| {
         PAIRS.distinct.iter().map(|&(a, b)| Angles::new(&to[a], &to[b])).collect::<Vec<_>>()
@@ -360,11 +359,11 @@ fn pairs(to: &[Vec<Vector3<f64>>]) -> Vec<Angles> {
     to.iter().flat_map(of_row).collect()
 }
 
-/// Pairs of directions from a row of patches between which the sheet reflects differently: light goes both
-/// ways alike, and the same if both are mirrored along the crease.
+/// Pairs of directions at a row of patches with distinct reflection: reflection is reciprocal, and unchanged
+/// if both directions are mirrored along the crease.
 struct Pairs {
     distinct: Vec<(usize, usize)>,
-    /// Which of these each direction makes with each: from which, towards which.
+    /// Index of the distinct pair for each incoming and outgoing direction.
     places: Vec<usize>,
 }
 
@@ -391,7 +390,7 @@ mod tests {
     use crate::geometry::FacetGrid;
     use crate::sheet::Family;
 
-    /// Under a sun a hair beside the middle both panels are followed, under one in the middle a single one.
+    /// Just off the bisecting plane the sun needs both panels followed; exactly on it, one suffices.
     #[test]
     fn panels_that_send_the_same_are_followed_once() {
         let fold = Fold::new(48.0, 1.0, 1.0, FacetGrid { rows: 4, cols: 4 }).unwrap();

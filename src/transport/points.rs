@@ -1,9 +1,10 @@
-//! Light that is reflected once or twice, at points of both panels.
+//! Light reflected once or twice, at points of both panels.
 //!
-//! Seen from a point, a direction is the angle ψ in the plane across the crease, from the perpendicular to
-//! the other panel, and the sine v of the angle out of that plane: `dω = dψ dv`, and the cosine of incidence
-//! is `√(1 − v²) cos(ψ − θ)` in a fold opened by θ. The sun is far: what comes along a direction depends on
-//! that alone, so that Gauss rules in ψ and v converge fast wherever the point is, at the crease too.
+//! A direction at a point is given by the angle ψ in the plane across the crease, from the perpendicular to
+//! the other panel, and by the sine v of the angle out of that plane: `dω = dψ dv`, and the cosine of
+//! incidence is `√(1 − v²) cos(ψ − θ)` in a fold opened by θ. As the sun is distant, the light along a
+//! direction depends only on that direction, so Gauss rules in ψ and v converge fast at every point, even at
+//! the crease.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -16,33 +17,33 @@ use crate::geometry::Fold;
 use crate::kernel::quadrature::Rule;
 use crate::sheet::{Angles, Shape};
 
-/// How many points and directions there are.
+/// Numbers of points and directions.
 #[derive(Clone, Copy)]
 struct Orders {
-    /// Points of a panel away from the crease and along it.
+    /// Points of a panel, away from the crease and along it.
     points: [usize; 2],
-    /// Directions at each, across the crease and along it.
+    /// Directions at each point, across the crease and along it.
     directions: [usize; 2],
 }
 
-/// Finer ones change facets of all but the glossiest sheets by a few thousandths.
+/// Finer orders change facets of all but the glossiest sheets by a few thousandths.
 const ORDERS: Orders = Orders { points: [8, 6], directions: [8, 10] };
 
-/// The points of both panels, with all directions of light to the eye by one or two reflections.
+/// The points of both panels, with all directions of light that reaches the eye by one or two reflections.
 pub struct Points {
     points: Vec<Sight>,
     pooling: Pooling,
 }
 
-/// What the eye sees of one point.
+/// Light from one point to the eye.
 struct Sight {
-    /// Irradiance of its panel and of the other.
+    /// Irradiance from the sun of this point's panel and of the other.
     lit: [f64; 2],
     from_sun: Angles,
     directions: Vec<Way>,
 }
 
-/// A way of light by two reflections.
+/// A path of light with two reflections.
 struct Way {
     at_other: Angles,
     at_point: Angles,
@@ -51,7 +52,7 @@ struct Way {
 }
 
 impl Points {
-    /// Those of `fold`, in the light of a sun and before an eye that the frames know.
+    /// The points of `fold`, with sun and eye taken from the frames.
     pub(super) fn new(fold: &Fold, frames: &[Frame; 2]) -> Self {
         Self::with(ORDERS, fold, frames)
     }
@@ -73,7 +74,7 @@ impl Points {
         Self { points, pooling: Pooling::smooth(fold, &out, &along) }
     }
 
-    /// Facet means of what a sheet of this shape sends to the eye beyond a Lambertian one: facets by albedos.
+    /// Facet means of the radiance towards the eye minus that of a Lambertian sheet: facets by albedos.
     #[must_use]
     pub fn departures(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
         let mut values = Array2::zeros((self.points.len(), albedos.len()));
@@ -99,8 +100,8 @@ impl Sight {
         Self { lit: [here.lit(), other.lit()], from_sun, directions }
     }
 
-    /// Twice reflected per unit of π times the other panel's irradiance: by body and body, once by each, by
-    /// surface and surface; and by two reflections of 1/sr.
+    /// Doubly reflected light per π times the other panel's irradiance: both by the body, one by each, both
+    /// by the surface; and for two reflections of 1/sr.
     fn twice(&self, shape: &Shape) -> [f64; 4] {
         let mut sums = [0.0; 4];
         for Way { at_other, at_point, weight } in &self.directions {
@@ -114,7 +115,7 @@ impl Sight {
     }
 }
 
-/// The directions from which light of the other panel reaches a point.
+/// Directions from which light of the other panel reaches a point.
 fn directions(
     here: &Frame,
     other_sun: &Vector3<f64>,
@@ -124,7 +125,7 @@ fn directions(
 ) -> Vec<Way> {
     let Frame { sin, cos, .. } = *here;
     let opening = sin.atan2(cos);
-    // from the crease to the other panel's edge
+    // from the crease to the outer edge of the other panel
     let edge = ((here.other_depth / out - cos) / sin).atan();
     let mut directions = Vec::with_capacity(across.nodes.len() * sideways.nodes.len());
     for (psi, weight_across) in across.on(opening - 0.5 * PI, edge) {

@@ -1,14 +1,14 @@
-//! From values at a grid of places on both panels to means over facets.
+//! Facet means from values on a grid of points on both panels.
 
 use ndarray::{Array2, Array3, ArrayView1, Axis};
 
 use crate::geometry::Fold;
 use crate::kernel::quadrature::{Lagrange, Rule};
 
-/// Places of a facet, in either direction, over which its mean is taken.
+/// Quadrature points of a facet in either direction.
 const PLACES: usize = 3;
 
-/// Weights of a grid's values in the means of facets, away from the crease and along it, alike on both
+/// Weights of the grid values in the facet means, away from the crease and along it, the same for both
 /// panels.
 pub(super) struct Pooling {
     out: Array2<f64>,
@@ -16,7 +16,7 @@ pub(super) struct Pooling {
 }
 
 impl Pooling {
-    /// Means of polynomials through all places, given as shares of the panel's sides.
+    /// Means of the polynomials through all points, which are given as fractions of the panel's sides.
     pub fn smooth(fold: &Fold, out: &[f64], along: &[f64]) -> Self {
         let polynomial = |nodes: &[f64]| {
             let lagrange = Lagrange::new(nodes);
@@ -25,7 +25,7 @@ impl Pooling {
         Self::new(fold, [out.len(), along.len()], polynomial(out), polynomial(along))
     }
 
-    /// Means of straight lines between neighbouring places, continued at the ends.
+    /// Means of linear interpolation between neighbouring points, extrapolated at the ends.
     pub fn straight(fold: &Fold, out: &[f64], along: &[f64]) -> Self {
         let lines = |nodes: Vec<f64>| {
             move |x: f64, weights: &mut [f64]| {
@@ -51,8 +51,8 @@ impl Pooling {
         Self { out: means(&row_edges, out_nodes, out), along: means(&col_edges, along_nodes, along) }
     }
 
-    /// Facets by whatever else there is, of places by the same; places in the order panel, away from the
-    /// crease, along it.
+    /// Facet means of the rows of `values`, which are points in the order panel, away from the crease, along
+    /// it. Columns are kept.
     pub fn pool(&self, values: &Array2<f64>) -> Array2<f64> {
         let [rows, out] = [self.out.nrows(), self.out.ncols()];
         let [cols, along] = [self.along.nrows(), self.along.ncols()];
@@ -84,12 +84,12 @@ impl Pooling {
     }
 }
 
-/// Weights that are not zero, with their places.
+/// Nonzero weights with their indices.
 fn counting(weights: ArrayView1<'_, f64>) -> impl Iterator<Item = (usize, &f64)> {
     weights.into_iter().enumerate().filter(|(_, weight)| **weight != 0.0)
 }
 
-/// Mean weights over each of the intervals between `edges`.
+/// Mean weights over each interval between `edges`.
 fn means(edges: &[f64], nodes: usize, at: impl Fn(f64, &mut [f64])) -> Array2<f64> {
     let rule = Rule::gauss_legendre(PLACES);
     let mut means = Array2::zeros((edges.len() - 1, nodes));

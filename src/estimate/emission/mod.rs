@@ -1,10 +1,9 @@
-//! Light that a sheet sends out itself where it fluoresces, as a fraction f of white under the light that
-//! falls on it.
+//! Light emitted by a fluorescent sheet, as a fraction f of white under the light falling on it.
 //!
-//! What is reflected bounces on; what is sent out is added once, where the light that excites it is taken in
-//! by the sheet and so hardly bounces: radiosity is `(I − ρK)⁻¹(ρ + f)E₀` at every wavelength. A band is
-//! log-normal in wavenumbers, with its size, place and width unknown; a sheet has one band or none, which is
-//! weighed by evidence.
+//! Reflected light bounces on. Emitted light is added once, because the light that excites it is absorbed by
+//! the sheet and hardly bounces: radiosity is `(I − ρK)⁻¹(ρ + f)E₀` at every wavelength. A band is log-normal
+//! in wavenumbers, with unknown size, position and width. A sheet has at most one band, which is weighed by
+//! evidence.
 
 pub(super) mod terms;
 
@@ -16,43 +15,42 @@ use super::gaussian::{logistic, logit};
 use super::prior::{Class, Prior};
 use super::unknowns::Normal;
 
-/// What is known of a band before a picture is looked at.
+/// Prior on a band.
 #[derive(Debug, PartialEq)]
 struct Band {
-    /// What excites it.
+    /// What excites the band.
     origin: Origin,
-    /// The largest size, the size being the fraction of white under daylight that is sent out at the peak: no
-    /// more photons than are taken in at shorter wavelengths.
+    /// The maximum size: the size is the fraction of white under daylight that is emitted at the peak, with
+    /// no more photons than are absorbed at shorter wavelengths.
     most: f64,
-    /// Logit of the part of that.
+    /// Logit of the size relative to the maximum.
     size: Normal,
     /// Wavenumber of the peak, 1/cm.
     peak_per_cm: Normal,
     /// Logarithm of the standard deviation of wavenumbers, 1/cm.
     ln_width_per_cm: Normal,
-    /// How far the logit of reflectance has fallen at 400 nm, where the sheet takes in what excites it.
+    /// Fall of the logit of reflectance at 400 nm, where the sheet absorbs the exciting light.
     fall: Normal,
-    /// How often a sheet of a class has it.
+    /// Probability of the band for a sheet of a class.
     share: Share,
 }
 
-/// Where light comes from that a sheet sends out.
+/// Origin of the light that a sheet emits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// Light from behind, which comes through a thin sheet: nothing fluoresces.
+    /// Light from behind that passes through a thin sheet: no fluorescence.
     Behind,
     /// Ultraviolet: an optical brightener.
     Ultraviolet,
-    /// Visible light of shorter wavelengths: a fluorescent dye or pigment. What bounces excites, too, which
-    /// the model leaves out.
+    /// Visible light of shorter wavelengths: a fluorescent dye or pigment. Bounced light excites it, too,
+    /// which the model omits.
     Visible,
 }
 
 impl Origin {
-    /// Power of the reflectance with which light is sent out: a sheet takes in of light that goes through it
-    /// what it takes in of light that it reflects, and both grow as its colour is paler. By Kubelka and
-    /// Munk's equations transmittances of sheets of 1.5 to 8 scattering lengths are as reflectances to powers
-    /// of 1.8 to 2.7.
+    /// Power of the reflectance to which the emitted light is proportional. A sheet absorbs transmitted and
+    /// reflected light alike, and both increase for paler colours. By the equations of Kubelka and Munk,
+    /// transmittances of sheets of 1.5 to 8 scattering lengths vary as reflectances to powers of 1.8 to 2.7.
     fn of_reflectance(self) -> i32 {
         match self {
             Self::Behind => 2,
@@ -61,27 +59,27 @@ impl Origin {
     }
 }
 
-/// How often sheets have a band.
+/// Probability that sheets have a band.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Share {
-    /// All classes of spectra alike.
+    /// The same for all classes of spectra.
     OfAll(f64),
-    /// That many of those that are white where the band is, hardly any of the deep ones: a brightener is put
-    /// into what is to look white.
+    /// This for sheets that are white at the band, almost none for deep colours: brighteners are added to
+    /// things that should look white.
     OfWhite(f64),
 }
 
-/// Reflectance at the peak of a brightener at which half as many sheets as of the white ones are brightened,
-/// and the logit over which that falls by e: pastel papers are dyed in the pulp of white ones, of deep
-/// colours a brightener would change nothing that is seen.
+/// Reflectance at the peak of a brightener at which sheets are brightened half as often as white ones, and
+/// the logit over which that falls by a factor of e: pastel papers are made by dyeing the pulp of white ones,
+/// but in deep colours a brightener would have no visible effect.
 const PASTEL: f64 = 0.5;
 const PASTEL_LOGIT: f64 = 0.5;
 
-/// Stilbenes in paper, cloth and plastics: they take in 300 to 430 nm and send out about 400 to 500 nm, and a
-/// brightened sheet is brightest at 435 to 440 nm (A. E. Siegrist et al., "Optical brighteners", *Ullmann's
-/// Encyclopedia of Industrial Chemistry* 25 (2012)). A size is as often below a tenth of white as above, two
-/// of three lie between a twentieth and a fifth; daylight has photons for 0.7. Half of white paper and washed
-/// cloth has one, of other white sheets, such as painted ones, fewer. Where it takes in most, at 370 nm, the
+/// Stilbenes in paper, cloth and plastics absorb 300 to 430 nm and emit about 400 to 500 nm, and a brightened
+/// sheet is brightest at 435 to 440 nm (A. E. Siegrist et al., "Optical brighteners", *Ullmann's Encyclopedia
+/// of Industrial Chemistry* 25 (2012)). A size is as often below a tenth of white as above, and two in three
+/// lie between a twentieth and a fifth; daylight has photons for 0.7. Half of white paper and washed cloth
+/// has one, other white sheets, such as painted ones, less often. At the absorption maximum, 370 nm, the
 /// logit of reflectance has fallen by about three, from 0.8 to 0.2.
 const BRIGHTENER: Band = Band {
     origin: Origin::Ultraviolet,
@@ -93,16 +91,16 @@ const BRIGHTENER: Band = Band {
     share: Share::OfWhite(0.35),
 };
 
-/// Dyes of notes, safety cloth and markers, such as coumarins, fluoresceins and rhodamines: emission from
-/// blue green to red, 30 to 70 nm wide at half its peak (J. R. Lakowicz, *Principles of Fluorescence
-/// Spectroscopy* (2006), chapter 3), of one sheet in fifty in all.
+/// Dyes of banknotes, safety cloth and markers, such as coumarins, fluoresceins and rhodamines: emission from
+/// blue green to red, 30 to 70 nm wide at half maximum (J. R. Lakowicz, *Principles of Fluorescence
+/// Spectroscopy* (2006), chapter 3), together in one sheet in fifty.
 const fn dye(peak_nm: f64) -> Band {
     let peak_per_cm = 1e7 / peak_nm;
     Band {
         origin: Origin::Visible,
         most: 2.0,
         size: Normal { mean: -1.4, sd: 1.0 },
-        // neighbours lie 25 nm apart
+        // neighbours are 25 nm apart
         peak_per_cm: Normal { mean: peak_per_cm, sd: 15.0 * peak_per_cm / peak_nm },
         ln_width_per_cm: Normal { mean: 6.8, sd: 0.25 },
         fall: Normal { mean: 0.0, sd: 0.0 },
@@ -111,8 +109,9 @@ const fn dye(peak_nm: f64) -> Band {
 }
 
 /// Light of table, ground and sky behind a single sheet in free air, up to a third of white, of which
-/// printing paper lets a tenth to a quarter through, cloth more (P. Kubelka, *Journal of the Optical Society
-/// of America* 38 (1948), p. 448): broad, rather red than blue. One sheet in twenty is thin and not backed.
+/// printing paper transmits a tenth to a quarter, and cloth more (P. Kubelka, *Journal of the Optical Society
+/// of America* 38 (1948), p. 448): broad, and red rather than blue. One sheet in twenty is thin and has no
+/// backing.
 const THROUGH: Band = Band {
     origin: Origin::Behind,
     most: 0.3,
@@ -146,39 +145,39 @@ impl Backing {
     }
 }
 
-/// Where a brightener begins to take in light (Siegrist et al.), and how much further the fall of logits is
-/// its amount: at 400 nm.
+/// Wavelength below which a brightener absorbs (Siegrist et al.), and the distance from it, at 400 nm, over
+/// which the logits fall by the amount of the fall.
 const FALL_NM: f64 = 430.0;
 const FALL_WITHIN_NM: f64 = 30.0;
-/// Power of a light below which a share of its mean counts as that: between the lines of a lamp f would have
-/// no bounds.
+/// Lower limit on the power of a light relative to its mean: between the lines of a lamp f would be
+/// unbounded.
 const LEAST_POWER: f64 = 0.02;
 
 /// A band on the wavebands of a scene, in its light. Its unknowns are standard normal numbers, in this order:
 /// size, peak, width, fall.
 #[derive(Clone, Debug)]
 pub struct Emission {
-    /// What is known of it; none of a sheet that sends out nothing.
+    /// Its prior; `None` for a sheet without emission.
     band: Option<&'static Band>,
-    /// What else sheets have.
+    /// All bands that a sheet may have.
     all: &'static [Band],
     wavelengths_nm: DVector<f64>,
-    /// Power of the light at the usual peak over that in every waveband.
+    /// Power of the light at the usual peak, divided by that in every waveband.
     by_light: DVector<f64>,
-    /// Change of the logit of reflectance with the fall.
+    /// Change of the logit of reflectance per unit of the fall.
     falling: DVector<f64>,
     usual: DVector<f64>,
 }
 
-/// How skew bands are: half of a band on the side of longer wavelengths is 1.4 times as wide as the other.
+/// Skewness of bands: the half at longer wavelengths is 1.4 times as wide as the other.
 const SKEW: f64 = 0.3;
 
-/// Number of unknowns of a band, and the place of the fall among them.
+/// Number of unknowns of a band, and the index of the fall among them.
 pub(super) const UNKNOWNS: usize = 4;
 const FALL: usize = 3;
 
-/// Logarithm of the shape of a band, 1 at its peak, with its first and second derivative, `u` being
-/// wavenumbers from the peak in units of the width; none beyond its end.
+/// Logarithm of the shape of a band, which is 1 at its peak, with first and second derivative; `u` is the
+/// wavenumber from the peak in units of the width. `None` beyond the end of the band.
 ///
 /// # Source
 /// The log-normal function: D. B. Siano, D. E. Metzler, *Journal of Chemical Physics* 51 (1969), p. 1856, for
@@ -193,9 +192,9 @@ fn ln_log_normal(u: f64) -> Option<[f64; 3]> {
     Some([-0.5 * v * v, -v * slope, -slope * slope * (1.0 + SKEW * v)])
 }
 
-/// What is sent out, with derivatives by the unknowns.
+/// Emission, with derivatives by the unknowns.
 pub struct Sent {
-    /// Fraction of white in every waveband, of a sheet of reflectance 1 where it goes with that.
+    /// Fraction of white per waveband, at reflectance 1 if the emission depends on it.
     pub fraction: DVector<f64>,
     /// Waveband by unknown.
     pub slopes: DMatrix<f64>,
@@ -204,7 +203,8 @@ pub struct Sent {
 }
 
 impl Emission {
-    /// All bands that a sheet may have in light of this relative `power`, the sheet without a band first.
+    /// All bands that a sheet may have in light of this relative `power`, preceded by the sheet without a
+    /// band.
     #[must_use]
     pub fn all(wavelengths_nm: &[f64], power: &[f64], backing: Backing) -> Vec<Self> {
         let all = backing.bands();
@@ -238,13 +238,13 @@ impl Emission {
         own
     }
 
-    /// What excites it; none if nothing is sent out.
+    /// What excites the band; `None` without emission.
     #[must_use]
     pub fn origin(&self) -> Option<Origin> {
         Some(self.band?.origin)
     }
 
-    /// What light that is sent out goes with: this power of the reflectance.
+    /// Power of the reflectance to which the emission is proportional.
     #[must_use]
     pub fn power_of_reflectance(&self) -> i32 {
         self.band.map_or(0, |band| band.origin.of_reflectance())
@@ -256,15 +256,15 @@ impl Emission {
         if self.band.is_some() { UNKNOWNS } else { 0 }
     }
 
-    /// Logarithms of the shares of classes of spectra, those of all sheets being given, times how often
-    /// sheets of each have it.
+    /// Log probabilities of the classes of spectra, given those for all sheets, plus that of the band for
+    /// sheets of each class.
     #[must_use]
     pub fn ln_class_shares(&self, of_all: Vec<f64>, prior: &Prior) -> Vec<f64> {
         let means = prior.classes().iter().map(Class::mean);
         iter::zip(of_all, means).map(|(of_class, mean)| of_class + self.ln_share(mean)).collect()
     }
 
-    /// Logarithm of how often sheets of these logits have it.
+    /// Logarithm of the probability of the band for sheets with these logits.
     #[must_use]
     pub fn ln_share(&self, logits: &DVector<f64>) -> f64 {
         let share = |band: &Band| match band.share {
@@ -286,20 +286,20 @@ impl Emission {
         self.wavelengths_nm.as_slice()
     }
 
-    /// The waveband in which most is sent out of all that is this `fraction` of white: where a lamp is dark
-    /// fractions are large.
+    /// The waveband of strongest emission for this `fraction` of white; where a lamp is dark, fractions are
+    /// large.
     #[must_use]
     pub fn peak(&self, fraction: &[f64]) -> usize {
         let power = DVector::from_column_slice(fraction).component_div(&self.by_light);
         power.imax()
     }
 
-    /// The place of the waveband that is nearest to a wavenumber.
+    /// Index of the waveband nearest to a wavenumber.
     fn nearest(&self, per_cm: f64) -> usize {
         self.wavelengths_nm.map(|nm| (1e7 / nm - per_cm).abs()).imin()
     }
 
-    /// What is sent out where the unknowns are `w`, one standard normal number each.
+    /// The emission for the unknowns `w`, each standard normal.
     #[must_use]
     pub fn at(&self, w: &[f64]) -> Sent {
         let bands = self.by_light.len();
@@ -340,14 +340,13 @@ impl Emission {
         Sent { fraction, slopes, ln_curvatures }
     }
 
-    /// What is usually sent out, as a fraction of white in every waveband.
+    /// The usual emission, as a fraction of white per waveband.
     #[must_use]
     pub fn usual(&self) -> &DVector<f64> {
         &self.usual
     }
 
-    /// Change of logits where the unknowns are `w`, and its derivative by the fall, which is the unknown of
-    /// that place.
+    /// Change of logits for the unknowns `w`, with its derivative by the fall and the index of that unknown.
     #[must_use]
     pub fn fall(&self, w: &[f64]) -> Option<Fall<'_>> {
         let band = self.band.filter(|band| band.fall.sd > 0.0)?;
@@ -360,15 +359,15 @@ impl Emission {
     }
 }
 
-/// How logits fall towards what excites a band.
+/// Fall of logits towards the exciting wavelengths of a band.
 pub struct Fall<'a> {
-    /// The place of the unknown among those of the band.
+    /// Index of the unknown among those of the band.
     pub place: usize,
-    /// How much.
+    /// Amount.
     pub amount: f64,
-    /// Standard deviation of that before a picture is looked at.
+    /// Its prior standard deviation.
     pub sd: f64,
-    /// Change in every waveband with the amount.
+    /// Change per waveband for unit amount.
     pub falling: &'a DVector<f64>,
 }
 

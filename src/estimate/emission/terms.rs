@@ -1,9 +1,9 @@
-//! What light that a sheet sends out makes of the terms of the facet model.
+//! Terms of the facet model for emitted light.
 
 use nalgebra::DMatrix;
 
-/// `rᵖ(1 + gt)` of a term t, g being its pole, r the reflectance: the light goes with a power p of that.
-/// Waveband by term, with derivatives by reflectance.
+/// `rᵖ(1 + gt)` for a term t with pole g and reflectance r: emission proportional to the power p of the
+/// reflectance. Waveband by term, with derivatives by reflectance.
 pub struct Made {
     pub terms: DMatrix<f64>,
     pub slopes: DMatrix<f64>,
@@ -11,7 +11,7 @@ pub struct Made {
 }
 
 impl Made {
-    /// Of terms with `poles`, and their derivatives.
+    /// From terms with `poles`, and their derivatives.
     pub fn of(reflectance: &[f64], terms: [&DMatrix<f64>; 3], poles: &[f64], power: i32) -> Self {
         let p = f64::from(power);
         let of_r = |r: f64| match power {

@@ -1,4 +1,4 @@
-//! Facets of an ideal fold in a light that nobody stated, which is one of several.
+//! Facets of an ideal fold in an unknown light, one of several candidates.
 
 use std::iter;
 
@@ -14,14 +14,14 @@ use crate::estimate::map::into_estimate;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 
-/// Lights so far behind the best under all spectra, as the logarithm of a share of its evidence, are out of
-/// the question; that is more than what knowing the class of spectra changes.
+/// Lights whose log evidence under all spectra is this far below the best are dropped; knowing the class of
+/// spectra changes less.
 const LN_EVIDENCE_HOPELESS: f64 = -12.0;
-/// Under so many lights classes of spectra are distinguished at most.
+/// Maximum number of lights under which classes of spectra are distinguished.
 const DISTINCT_ODDS: usize = 48;
 
-/// The expected reflectance, and the light, of facets in one of `lights`; `start` is a reflectance to set out
-/// from.
+/// The posterior mean reflectance, and the light, for facets in one of `lights`; `start` is an initial
+/// reflectance.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
@@ -46,8 +46,8 @@ pub fn estimate(
     Ok(Estimate { light: Some(light), ..into_estimate(best, &found, &found, search.trace) })
 }
 
-/// Lights by their evidence under all spectra, each from where its neighbour led, those that are out of the
-/// question left out.
+/// Lights in order of evidence under all spectra, each started from the result of its neighbour, without
+/// hopeless ones.
 fn sorted(
     search: &mut Search<Alternatives>,
     lights: &[Candidate],

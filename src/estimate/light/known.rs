@@ -1,8 +1,8 @@
-//! What a fold of a known sheet says of its light.
+//! Infers the light from a fold of a known sheet.
 //!
-//! Where the reflectance is known, how probable the facets are in a light depends on that light and on little
-//! else: the sheet's evidence tells lights apart that unknown sheets leave open, and the exposure along with
-//! them. The fold's own scene is integrated out as that of any other.
+//! If the reflectance is known, the probability of the facets in a light depends on little but that light:
+//! the evidence distinguishes lights that unknown sheets leave open, and determines the exposure as well. The
+//! unknowns of the fold's own scene are integrated out, as for any other.
 
 use std::iter;
 
@@ -23,35 +23,33 @@ use crate::estimate::unknowns::Normal;
 use crate::estimate::verdict::{Doubt, EXPLAINED};
 use crate::solve::posterior::{Model, Solution, find_mode, first_tempering};
 
-/// How far off the reflectance is that an instrument on a bench says, relative to it: instruments of one
-/// model agree to 0.4 ΔE*94 in the mean on ceramic tiles (X-Rite, *i1Pro 2*, technical specification), which
-/// is 1 % of a white sheet's light, and sheets differ from place to place.
+/// Relative error of a reflectance from a bench instrument: instruments of one model agree to 0.4 ΔE*94 on
+/// average on ceramic tiles (X-Rite, *i1Pro 2*, technical specification), which is 1 % of a white sheet's
+/// light, and sheets differ from place to place.
 const SD: f64 = 0.01;
-/// A maximum counts as found within this many standard deviations of it, and a search ends after so many
-/// iterations.
+/// A mode counts as found within this many standard deviations; a search ends after this many iterations.
 const TOLERANCE: f64 = 1e-3;
 const LIMIT: usize = 500;
-/// A sheet whose reflectance is known, to what an instrument repeats.
+/// A sheet whose reflectance is known as well as an instrument repeats.
 #[derive(Clone, Debug)]
 pub struct KnownSheet {
     gaussian: Gaussian,
-    /// The same as data of photographs.
+    /// The same as data for photographs.
     reflectance: KnownReflectance,
 }
 
-/// What a fold of a known sheet shows of the pictures that were taken in its light by the same camera.
+/// What a fold of a known sheet reveals about pictures taken in its light by the same camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown {
-    /// Logarithm of the exposure of computed facets, in the light that was stated.
+    /// Logarithm of the exposure of computed facets in the stated light.
     pub exposure: Option<Normal>,
     /// A light that is more probable than the stated one.
     pub rival: Option<RivalLight>,
-    /// What a photograph of the sheet shows of lights that are unknown.
+    /// What a photograph of the sheet reveals about unknown lights.
     pub scenarios: Option<ShownScenarios>,
-    /// What it shows of daylight that was stated.
+    /// What it reveals about stated daylight.
     pub daylight: Option<ShownDaylight>,
-    /// How far the known facets are from the model in the light that suits them best, in units of their
-    /// noise.
+    /// Deviation of the known facets from the model in the best light, in units of their noise.
     pub rms: f64,
 }
 
@@ -63,8 +61,8 @@ struct InLight {
 }
 
 impl InLight {
-    /// The noise being as large as the facets leave it in the light that suits them best: where none does,
-    /// lights are distinguished less surely.
+    /// Uses noise as large as the residuals in the best light: if no light explains the facets, lights are
+    /// distinguished with less certainty.
     fn ln_evidence(&self, least_rms: f64) -> Option<f64> {
         self.solution.ln_evidence(least_rms.max(1.0))
     }
@@ -90,7 +88,7 @@ impl KnownSheet {
         Ok(Self { gaussian: Gaussian::centred_on(reflectance, &errors), reflectance: known })
     }
 
-    /// What a fold of it shows in the light that was stated, which may be one of `others`.
+    /// What a fold of it reveals in the stated light, which may be one of `others`.
     ///
     /// # Errors
     /// [`Error::Numeric`] if its facets are not finite.
@@ -107,8 +105,8 @@ impl KnownSheet {
         Ok(Shown { rival, exposure: stated.exposure, scenarios: None, daylight: None, rms })
     }
 
-    /// The same `lights` as probable as a fold of it leaves them, those that it rules out left out; and what
-    /// it shows beside them.
+    /// The `lights` with their posterior probabilities given a fold of it, without those ruled out; and what
+    /// else it reveals.
     ///
     /// # Errors
     /// [`Error::Numeric`] if its facets are not finite.
@@ -127,11 +125,11 @@ impl KnownSheet {
         Ok((lights, Shown { exposure: None, rival: None, scenarios: None, daylight: None, rms }))
     }
 
-    /// What a photograph of it shows: of `lights`, if it is not known which it is, else of the daylight that
-    /// was stated.
+    /// What a photograph of it reveals: about `lights`, if the light is unknown, else about the stated
+    /// daylight.
     ///
     /// # Arguments
-    /// - `parts`: what the photograph is made of, in daylight that nobody stated if the light is unknown.
+    /// - `parts`: the ingredients of the photograph, in unstated daylight if the light is unknown.
     ///
     /// # Errors
     /// [`Error::Numeric`] if its facets are not finite.
@@ -164,7 +162,7 @@ impl KnownSheet {
 }
 
 impl Shown {
-    /// What the known fold says against an estimate in light that was `stated`, if any was.
+    /// The doubt that the known fold casts on an estimate in light that was `stated`, if any was.
     #[must_use]
     pub fn doubt(&self, stated: Option<&str>) -> Option<Doubt> {
         if let (Some(rival), Some(stated)) = (&self.rival, stated) {
@@ -191,7 +189,7 @@ fn least_rms<'a>(all: impl Iterator<Item = &'a InLight>) -> f64 {
     all.map(|one| one.rms).fold(f64::INFINITY, f64::min)
 }
 
-/// Those that are in question, their shares adding up to 1.
+/// Candidates that remain possible, with probabilities that add up to 1.
 fn probable(mut lights: Vec<Candidate>) -> Vec<Candidate> {
     let most = lights.iter().map(|light| light.ln_share).fold(f64::NEG_INFINITY, f64::max);
     lights.retain(|light| light.ln_share >= most + LN_HOPELESS);
@@ -215,8 +213,8 @@ mod tests {
 
     const LIGHTS: [&str; 4] = ["D65", "A", "FL11", "LED-B3"];
 
-    /// Lights as a grey fold in the first of them leaves them, its facets being as precise as `noise_sd`, and
-    /// how probable each was before.
+    /// Lights weighed by a grey fold in the first of them with facet noise `noise_sd`, and the prior
+    /// probability of each.
     fn weighed(noise_sd: f64) -> (Vec<Candidate>, f64) {
         let grid = WavelengthGrid::uniform(400.0, 700.0, 10.0).unwrap();
         let curves = camera("canon-5d-mark-ii").unwrap().channels;

@@ -1,8 +1,8 @@
-//! A light that nobody stated, found by evidence.
+//! An unknown light, inferred by evidence.
 //!
-//! The residual does not tell lights apart: some spectrum explains the facets in nearly every one. How
-//! probable that spectrum is does. So each light is a hypothesis, weighed by the evidence of what is known of
-//! reflectances, and the estimate is the mean over all of them, as it is over classes of spectra.
+//! Residuals do not distinguish lights: some spectrum explains the facets in almost every one. The
+//! probability of that spectrum does. Each light is therefore a hypothesis, weighed by its evidence under the
+//! prior on reflectances, and the estimate is the mean over all of them, as over classes of spectra.
 
 mod ideal;
 mod known;
@@ -24,53 +24,53 @@ use crate::estimate::data::FacetData;
 use crate::estimate::unknowns::Normal;
 use crate::spectrum::{CandidateLight, Outside, WavelengthGrid};
 
-/// A light that may be the one, on the wavelengths of a scene.
+/// A candidate light, on the wavelengths of a scene.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// Correlated colour temperature, K, of those that have one by definition.
+    /// Correlated colour temperature, K, if it is defined by one.
     pub cct_k: Option<f64>,
-    /// Logarithm of how often it is the one.
+    /// Logarithm of its prior probability.
     pub ln_share: f64,
     /// Relative power, one number per waveband.
     pub power: Vec<f64>,
-    /// What the camera makes of it.
+    /// The camera's response to it.
     pub camera: CameraResponse,
-    /// Whether it is one of all daylights, which a photograph takes as one light of unknown temperature.
+    /// True for a daylight, all of which a photograph treats as one light of unknown temperature.
     pub is_any_daylight: bool,
-    /// Logarithm of the exposure of a picture in it, where a known fold shows it.
+    /// Logarithm of the exposure of a picture in it, if a known fold reveals it.
     pub exposure: Option<Normal>,
 }
 
-/// A candidate, and how probable it is.
+/// A candidate with its posterior probability.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weighed {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// Correlated colour temperature, K, of those that have one by definition.
+    /// Correlated colour temperature, K, if it is defined by one.
     pub cct_k: Option<f64>,
-    /// How probable it is.
+    /// Its probability.
     pub probability: f64,
 }
 
-/// A light as found.
+/// An inferred light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InferredLight {
-    /// Candidates that may be it, the most probable first; their probabilities add up to 1.
+    /// Possible candidates, the most probable first; their probabilities add up to 1.
     pub candidates: Vec<Weighed>,
-    /// The expected relative power, one number per waveband, its mean 1.
+    /// The expected relative power, one number per waveband, with mean 1.
     pub power: Vec<f64>,
     /// Its standard deviation.
     pub power_sd: Vec<f64>,
 }
 
 impl Candidate {
-    /// Lights before a camera of these sensitivities, `[channel][waveband]`.
+    /// Candidates for a camera with these sensitivities, `[channel][waveband]`.
     ///
     /// # Errors
-    /// [`crate::Error::Spectrum`] if one does not cover the wavelengths, [`crate::Error::Numeric`] if a
-    /// channel sees nothing of it.
+    /// [`crate::Error::Spectrum`] if a light does not cover the wavelengths, [`crate::Error::Numeric`] if a
+    /// channel does not respond to it.
     pub fn all(
         lights: &[CandidateLight],
         grid: &WavelengthGrid,
@@ -93,7 +93,7 @@ impl Candidate {
 }
 
 impl Candidate {
-    /// Facets in it.
+    /// Facets in this light.
     fn on<'a>(&self, data: &FacetData<'a>) -> FacetData<'a> {
         let lit = data.in_light(&self.camera);
         match self.exposure {
@@ -108,7 +108,7 @@ impl Candidate {
 }
 
 impl InferredLight {
-    /// Lights of these powers, the probabilities of which add up to 1; those that have none are left out.
+    /// From lights with these powers, whose probabilities add up to 1; those with probability 0 are omitted.
     #[must_use]
     pub fn of<'p>(all: impl IntoIterator<Item = (Weighed, &'p [f64])>) -> Self {
         let (mut candidates, mut power, mut square) = (Vec::new(), Vec::new(), Vec::new());
@@ -127,7 +127,7 @@ impl InferredLight {
         Self { candidates, power_sd: iter::zip(&square, &power).map(sd).collect(), power }
     }
 
-    /// The most probable one among `all`, if it is one of them.
+    /// The most probable candidate, if it is among `all`.
     #[must_use]
     pub fn most_probable<'a>(&self, all: &'a [Candidate]) -> Option<&'a Candidate> {
         let first = self.candidates.first()?;
@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// The mean lies between the lights, and is off from them by no more than they differ.
+        /// The mean lies between the lights, and its standard deviation is no more than their difference.
         #[test]
         fn the_expected_light_lies_between_the_candidates(
             shares in prop::collection::vec(0.0_f64..1.0, 3),

@@ -1,9 +1,9 @@
-//! A photograph in a light that nobody stated: in daylight of any day and temperature, as photographs usually
-//! are, or in one of the others.
+//! A photograph in an unstated light: usually daylight of any day and temperature, else one of the other
+//! candidates.
 //!
-//! Under one kind of sheet and all spectra as one, each from where its neighbour led, lights show quickly
-//! which of them are out of the question. What is left is estimated as if it had been said, and the estimate
-//! is the mean of these by their evidence.
+//! Under one sheet model and all spectra as one Gaussian, each light started from the result of its
+//! neighbour, most lights are soon ruled out. Each remaining one is estimated as if it had been stated, and
+//! the estimate is their mean, weighted by evidence.
 
 use std::{iter, slice};
 
@@ -22,41 +22,40 @@ use crate::estimate::photograph::{
 use crate::estimate::prior::Prior;
 use crate::estimate::search::Search;
 
-/// Lights so far behind the best, as the logarithm of a share of its evidence, are out of the question, and
-/// at most so many are estimated beside daylight, in which photographs usually are: with looking through all
-/// of them that is less than four estimates.
+/// Lights whose log evidence is this far below the best are dropped, and at most this many are estimated in
+/// addition to daylight, the usual light of photographs: including the survey of all lights, that takes less
+/// time than four estimates.
 const LN_EVIDENCE_LEAST: f64 = -6.0;
 const TRIED: usize = 2;
-/// Lights so far behind the best in the light of a known sheet, as the logarithm of a share of its evidence,
-/// are out of the question for all others.
+/// Lights whose log evidence from a known sheet is this far below the best are dropped for all other sheets.
 pub(super) const LN_HOPELESS: f64 = -20.0;
 
-/// How much of all daylight comes without a sky and the ground below it: from a flash, which has the colours
-/// of [`WITHOUT_SKY_K`], or a small window.
+/// Probability that daylight comes without a sky and the ground below it: from a flash, with a colour
+/// temperature in [`WITHOUT_SKY_K`], or through a small window.
 pub(super) const WITHOUT_SKY: f64 = 0.1;
 const WITHOUT_SKY_K: std::ops::RangeInclusive<f64> = 5000.0..=7700.0;
 
 /// A light, and the photograph in it.
 struct Scenario<'a> {
-    /// The candidate; none for any daylight.
+    /// The candidate; `None` for daylight of any kind.
     light: Option<&'a Candidate>,
     ln_share: f64,
     parts: Parts,
 }
 
-/// What a photograph of a known sheet shows of the lights that it may have been taken in.
+/// What a photograph of a known sheet reveals about its possible lights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShownScenarios {
-    /// Logarithm of how probable it is in each.
+    /// Log evidence in each of them.
     ln_evidence: Vec<f64>,
     /// Daylight.
     daylight: Option<ShownDaylight>,
-    /// How far its facets are from the model in the light that suits them best, in units of what is expected.
+    /// Deviation of its facets from the model in the best light, relative to the expected error.
     pub rms: f64,
 }
 
 impl ShownScenarios {
-    /// What a photograph of a known sheet shows, its `parts` being those in daylight that nobody stated.
+    /// From a photograph of a known sheet, with its `parts` in unstated daylight.
     ///
     /// # Errors
     /// [`Error::Numeric`] if the facets are not finite.
@@ -82,7 +81,7 @@ impl ShownScenarios {
         Ok(Self { ln_evidence, daylight, rms })
     }
 
-    /// Takes out what it rules out, and makes all others as probable as it leaves them.
+    /// Drops scenarios that it rules out, and updates the probabilities of the others.
     fn enter(&self, scenarios: &mut Vec<Scenario>) {
         for (scenario, ln_evidence) in iter::zip(scenarios.iter_mut(), &self.ln_evidence) {
             scenario.ln_share += ln_evidence;
@@ -95,7 +94,7 @@ impl ShownScenarios {
     }
 }
 
-/// What a photograph of a known sheet shows of the daylight that it was taken in; none of a lamp.
+/// What a photograph of a known sheet reveals about its daylight; `None` for a lamp.
 #[must_use]
 pub fn daylight_of_known(parts: &Parts, known: &KnownReflectance, prior: &Prior) -> Option<ShownDaylight> {
     parts.stated.daylight?;
@@ -104,15 +103,15 @@ pub fn daylight_of_known(parts: &Parts, known: &KnownReflectance, prior: &Prior)
     shown_daylight(&scenario.known(&photographs, known, prior, &mut None, f64::NEG_INFINITY))
 }
 
-/// Logarithm of the evidence on all days, each as often as it is.
+/// Log evidence summed over the kinds of day, weighted by their probabilities.
 fn ln_of_days(days: &[(Day, f64, KnownSeen)]) -> f64 {
     let most = days.iter().map(|(.., seen)| seen.ln_evidence).fold(f64::NEG_INFINITY, f64::max);
     let weight = |(_, share, seen): &(Day, f64, KnownSeen)| share * (seen.ln_evidence - most).exp();
     if days.is_empty() { most } else { most + days.iter().map(weight).sum::<f64>().ln() }
 }
 
-/// The expected reflectance, and the light, of a photograph in one of `lights`; its `parts` are those in
-/// daylight that nobody stated.
+/// The posterior mean reflectance, and the light, for a photograph in one of `lights`; its `parts` are those
+/// in unstated daylight.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
@@ -149,7 +148,7 @@ pub fn estimate_photograph(
         .ok_or_else(|| Error::Numeric("the facets of the photograph are not finite".to_owned()))
 }
 
-/// All daylight under a sky as one way, each daylight without one and each other light as one.
+/// All daylight under a sky as one scenario, and each daylight without a sky and each other light as one.
 fn scenarios<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Scenario<'a>> {
     let of_daylight: f64 =
         lights.iter().filter(|light| light.is_any_daylight).map(|light| light.ln_share.exp()).sum();
@@ -157,7 +156,7 @@ fn scenarios<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Scenario<'a>> {
     let daylight =
         (of_daylight > 0.0).then(|| Scenario { light: None, ln_share: of_sky.ln(), parts: parts.clone() });
     let others = lights.iter().filter(|light| !light.is_any_daylight);
-    // of lamps one hypothesis stands for all days, with the share of a clear one
+    // for lamps one hypothesis represents all days, with the probability of a clear one
     let ln_clear = parts.stated.share_of(Day::Clear).ln();
     let of = |light: &'a Candidate| {
         let parts = parts.in_light(&light.power);
@@ -174,12 +173,12 @@ fn scenarios<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Scenario<'a>> {
     daylight.into_iter().chain(flashes.into_iter().map(of_flash)).chain(others.map(of)).collect()
 }
 
-/// Whether a light is daylight that may come without a sky.
+/// True for daylight that may come without a sky.
 pub(super) fn is_of_flash(light: &Candidate) -> bool {
     light.is_any_daylight && light.cct_k.is_some_and(|cct_k| WITHOUT_SKY_K.contains(&cct_k))
 }
 
-/// Those beside any daylight that are not out of the question, the most probable first.
+/// Scenarios other than daylight under a sky that remain possible, the most probable first.
 fn probable<'w, 'a>(scenarios: &'w [Scenario<'a>], prior: &Prior) -> Vec<&'w Scenario<'a>> {
     let Some(first) = scenarios.first() else { return Vec::new() };
     let photographs = Photographs::of(slice::from_ref(&first.parts));
@@ -192,7 +191,7 @@ fn probable<'w, 'a>(scenarios: &'w [Scenario<'a>], prior: &Prior) -> Vec<&'w Sce
         for day in scenario.days() {
             let hypothesis = Hypothesis::on_dull_day(*day, SheetModel::Family);
             let ln_share = scenario.ln_share + scenario.parts.stated.share_of(*day).ln();
-            // lights of another kind have other unknowns
+            // lights of another kind have different unknowns
             let from = start.clone().filter(|w| Some(w.len()) == family.unknowns(hypothesis, prior));
             let Some(one) = search.sort((hypothesis, ln_share), from, best + 2.0 * LN_EVIDENCE_LEAST) else {
                 continue;
@@ -207,7 +206,7 @@ fn probable<'w, 'a>(scenarios: &'w [Scenario<'a>], prior: &Prior) -> Vec<&'w Sce
     let near =
         all.into_iter().filter(|(scenario, ln)| scenario.light.is_some() && *ln >= best + LN_EVIDENCE_LEAST);
     for (scenario, _) in near {
-        // one that is a daylight stands there once for each kind of day
+        // a daylight is listed once for each kind of day
         if !kept.iter().any(|other| std::ptr::eq(*other, scenario)) {
             kept.push(scenario);
         }
@@ -216,7 +215,7 @@ fn probable<'w, 'a>(scenarios: &'w [Scenario<'a>], prior: &Prior) -> Vec<&'w Sce
 }
 
 impl Scenario<'_> {
-    /// A photograph of a known sheet in it, on each day on which it may have been so, with how often that is.
+    /// A photograph of a known sheet in this light, for each possible kind of day, with its probability.
     fn known(
         &self,
         photographs: &Photographs,
@@ -239,12 +238,12 @@ impl Scenario<'_> {
         all
     }
 
-    /// Days on which the light may have been so; indoors they make no difference.
+    /// Possible kinds of day; indoors they make no difference.
     fn days(&self) -> &'static [Day] {
         if self.parts.stated.daylight.is_some() { &Day::ALL } else { &[Day::Clear] }
     }
 
-    /// The light with this probability, and its power; of daylight, as the photograph shows it.
+    /// The light with this probability, and its power; for daylight, as inferred from the photograph.
     fn found(&self, probability: f64, estimate: &Estimate) -> (Weighed, Vec<f64>) {
         if let Some(light) = self.light {
             return (light.weighed(probability), light.power.clone());
@@ -259,8 +258,8 @@ impl Scenario<'_> {
     }
 }
 
-/// The mean of estimates by their shares, its errors widened by how far they are from it; all else is that of
-/// the largest share.
+/// The mean of estimates, weighted by probability, with errors widened by their distances from it; everything
+/// else is taken from the most probable one.
 fn mean(mut all: Vec<(f64, Estimate)>) -> Option<Estimate> {
     all.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let weighted = |of: &dyn Fn(&Estimate) -> Option<DVector<f64>>| {

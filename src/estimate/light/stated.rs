@@ -1,10 +1,10 @@
-//! Whether another light is more probable than the one that was stated.
+//! Tests whether another light is more probable than the stated one.
 //!
-//! In another light the facets are those of another spectrum. How much more probable the facets are then is
-//! known before anything is known of who stated the light: the ratio of evidence. What people state is right
-//! in nineteen cases of twenty (docs/model.md), and nothing is known of what they take for it otherwise, so
-//! that every other light is weighed by itself: one in which facets are more than nineteen times as probable
-//! is more probable than the one that was stated.
+//! In another light the facets belong to another spectrum. The ratio of evidence says how much more probable
+//! that makes them, whoever stated the light. Statements are right in nineteen cases of twenty
+//! (docs/model.md), and it is unknown which lights are mistaken for which. Every other light is therefore
+//! weighed by itself: if it makes the facets more than nineteen times as probable, it is more probable than
+//! the stated one.
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -19,27 +19,26 @@ use crate::estimate::search::{Search, Sorted};
 use crate::estimate::verdict::Doubt;
 use crate::spectrum::{WavelengthGrid, candidate_lights};
 
-/// Logarithm of the ratio of evidence that makes up for a statement: nineteen times, as one statement in
-/// twenty is mistaken, rounded.
+/// Log evidence ratio that outweighs a statement: nineteen to one, rounded, as one statement in twenty is
+/// mistaken.
 pub(super) const LN_ODDS: f64 = 3.0;
-/// A light under which facets are at least as probable as that is not asked about, in standard deviations of
-/// how improbable facets of known sheets are: what is as usual as that needs no other light to explain it.
+/// A stated light is not questioned if facets are no more improbable in it than this, in standard deviations
+/// over known sheets: what is that usual needs no other light to explain it.
 const USUAL: f64 = 0.5;
-/// Lights are searched if models that are linear say that facets may become so much more probable in them,
-/// and are weighed by classes of spectra if they are ahead by so much under all spectra as one, so many of
-/// them at most: what classes add differs from light to light by less than the rest of
-/// [`LN_ODDS`].
+/// Lights are searched if linear models predict that facets may become this much more probable, and are
+/// weighed by classes of spectra if they are this far ahead under all spectra as one, up to this number of
+/// lights: the contribution of classes varies between lights by less than the rest of [`LN_ODDS`].
 pub(super) const LN_AHEAD: f64 = 1.0;
 const DISTINCT_ODDS: usize = 3;
-/// One of so many lights is tried first, as neighbours are alike.
+/// First one light in this many is tried, as neighbours are similar.
 const STEP: usize = 6;
-/// More times than that are not counted.
+/// Larger ratios are not reported exactly.
 const MOST_TIMES: f64 = 1e6;
 
-/// Facets in the light that was stated, under all spectra as one.
+/// Facets in the stated light, under all spectra as one.
 pub type StatedScene = Sorted<(), Second>;
 
-/// Lights that may be the true one instead, made when they are first asked for.
+/// Lights that may be the true one instead, computed on first use.
 #[derive(Debug)]
 pub struct Others {
     grid: WavelengthGrid,
@@ -48,19 +47,19 @@ pub struct Others {
 }
 
 impl Others {
-    /// Those before a camera of these sensitivities, `[channel][waveband]`.
+    /// Alternatives for a camera with these sensitivities, `[channel][waveband]`.
     #[must_use]
     pub fn before(grid: &WavelengthGrid, sensitivities: &[Vec<f64>]) -> Self {
         Self { grid: grid.clone(), sensitivities: sensitivities.to_vec(), lights: OnceLock::new() }
     }
 
-    /// Whether these are the same lights before the same camera.
+    /// True if these are the same lights and the same camera.
     #[must_use]
     pub fn are_those_of(&self, other: &Self) -> bool {
         self.grid == other.grid && self.sensitivities == other.sensitivities
     }
 
-    /// None on wavelengths that built-in lights do not cover.
+    /// Empty if the built-in lights do not cover the wavelengths.
     pub fn lights(&self) -> &[Candidate] {
         self.lights.get_or_init(|| {
             let all =
@@ -70,17 +69,17 @@ impl Others {
     }
 }
 
-/// A light that is more probable than the one that was stated.
+/// A light that is more probable than the stated one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RivalLight {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// Logarithm of how many times as probable the facets are in it.
+    /// Logarithm of how many times as probable it makes the facets.
     pub ln_odds: f64,
 }
 
 impl RivalLight {
-    /// The one of most evidence among `lights`, if that is ahead of the stated one's by enough.
+    /// The one of `lights` with most evidence, if it is sufficiently ahead of the stated one.
     pub(super) fn of(
         lights: impl Iterator<Item = (String, f64)>,
         ln_stated: f64,
@@ -91,7 +90,7 @@ impl RivalLight {
         most.filter(|most| most.ln_odds > ln_enough)
     }
 
-    /// What it says against an estimate in light that was `stated`.
+    /// The doubt that it casts on an estimate in light that was `stated`.
     #[must_use]
     pub fn doubt(&self, stated: &str) -> Doubt {
         Doubt::new(
@@ -113,8 +112,8 @@ impl fmt::Display for RivalLight {
     }
 }
 
-/// The light in which facets are much more probable than in the one that was `stated`, in which the sheet may
-/// fluoresce, if there is any among `others`.
+/// The light among `others`, if any, in which facets are much more probable than in the one that was
+/// `stated`, in which the sheet may fluoresce.
 pub fn rival(
     data: &FacetData,
     (stated, fluorescing): (&StatedScene, &[Fluorescing]),
@@ -136,8 +135,8 @@ pub fn rival(
         let alike = seen_alike(&reflectance, &data.scene().facets().sources().first()?.camera, light);
         let start = Facets { data: &lit, gaussian: prior.broad() }.set_out_from(&alike);
         let mut in_light = Search::new(&lit, prior);
-        // of lights far off the stated one the way there says little, of lights near by the way from what is
-        // seen alike
+        // the first test serves for lights far from the stated one, the second, from a reflectance that looks
+        // alike, for near ones
         let change =
             &stated.solution.at.residuals - lit.residuals(&reflectance, unknowns.as_slice()).residuals;
         let is_hopeful = score_test.ln_gain_along(&change) > LN_AHEAD
@@ -164,7 +163,7 @@ pub fn rival(
     RivalLight::of(by_classes, ln_stated, LN_ODDS)
 }
 
-/// The reflectance that sends to the camera in another light what this one does: where to set out from.
+/// The reflectance that looks the same to the camera in another light: a starting point.
 fn seen_alike(reflectance: &[f64], camera: &CameraResponse, light: &Candidate) -> Vec<f64> {
     let power = |camera: &CameraResponse, band: usize| {
         (0..camera.channels())
@@ -179,8 +178,8 @@ fn seen_alike(reflectance: &[f64], camera: &CameraResponse, light: &Candidate) -
     alike.into_iter().map(|r| scale * r).collect()
 }
 
-/// Those of most evidence among the lights that are `ahead`: one of [`STEP`] is tried, then the neighbours of
-/// the best.
+/// The lights of most evidence among those `ahead`: one in [`STEP`] is tried, then the neighbours of the
+/// best.
 pub(super) fn coarse_to_fine<'l, L, T>(
     lights: &'l [L],
     mut ahead: impl FnMut(&'l L) -> Option<T>,

@@ -1,9 +1,9 @@
-//! Whether a photograph speaks against the light that was stated: under one kind of sheet, on the kind of day
-//! that suits each light best.
+//! Tests whether a photograph contradicts the stated light: under one sheet model, on the kind of day that
+//! suits each light best.
 //!
-//! Daylight that people state is any daylight: a photograph has its temperature as an unknown. It comes with
-//! a sky or, now and then, without: otherwise lamps of its colour, which have none, would explain pictures
-//! better that show hardly any.
+//! Stated daylight means any daylight, whose temperature is an unknown of the photograph. It may come with or
+//! without a sky: otherwise lamps of its colour, which have none, would better explain pictures that show
+//! hardly any sky.
 
 use std::slice;
 
@@ -20,9 +20,9 @@ use crate::estimate::photograph::{Parts, Photographs};
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 
-/// Logarithm of the ratio of evidence that makes up for a statement, four hundred times: more than of
-/// computed facets, as a lamp may mimic what of a photograph no model has. Fitted to `../shared/train`: one
-/// of 48 in light that is stated rightly is doubted.
+/// Log evidence ratio that outweighs a statement, four hundred to one: more than for computed facets, as a
+/// lamp may mimic effects in a photograph that no model has. Fitted to `../shared/train`: one of 48 correctly
+/// stated lights is doubted.
 const LN_ODDS: f64 = 6.0;
 
 type Tried = Sorted<Hypothesis, ()>;
@@ -32,17 +32,17 @@ struct Lit {
     name: String,
     with_sky: Parts,
     without_sky: Vec<Parts>,
-    /// Kinds of days on which it may shine.
+    /// Kinds of day on which it may shine.
     days: Vec<Day>,
 }
 
-/// The way of a light that has most evidence: which of all, and what it is under all spectra as one.
+/// The scenario of a light with most evidence: its index, and its search under all spectra as one.
 struct Best {
     scenario: usize,
     tried: Tried,
 }
 
-/// Where the last search under a light led, for each number of unknowns: lights of another kind have others.
+/// The result of the last search for each number of unknowns, which differs between kinds of light.
 #[derive(Default)]
 struct Starts(Vec<DVector<f64>>);
 
@@ -57,8 +57,8 @@ impl Starts {
     }
 }
 
-/// The light in which a photograph is much more probable than in the one that was stated, if there is any
-/// among `others`; in that the kind of `day` has been found, if it is daylight.
+/// The light among `others`, if any, in which a photograph is much more probable than in the stated one, for
+/// which the kind of `day` has been inferred if it is daylight.
 pub fn rival_in_photograph(
     parts: &Parts,
     day: Option<Day>,
@@ -88,7 +88,7 @@ pub fn rival_in_photograph(
     if ahead.is_empty() {
         return None;
     }
-    // the stated one may be ahead of these without a sky
+    // without a sky, the stated light may be ahead of these
     let stated = Lit { days: under_sky.days.clone(), ..Lit::of(String::new(), parts.clone(), others) };
     let best_of_stated = stated.best(&photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
     least = best_of_stated.tried.ln_weight() + LN_AHEAD;
@@ -102,7 +102,7 @@ pub fn rival_in_photograph(
     RivalLight::of(of_lights, by_classes(&stated, &best_of_stated)?, LN_ODDS)
 }
 
-/// Daylight, unless that was stated, which is none here, then the lamps.
+/// Daylight, unless it was stated (`None` stands for it), then the lamps.
 fn other_lights<'o>(parts: &Parts, others: &'o Others) -> Vec<Option<&'o Candidate>> {
     let is_stated = matches!(parts.stated.daylight, Some(Daylight::Cie { .. }));
     let lamps = others.lights().iter().filter(|light| !light.is_any_daylight).map(Some);
@@ -117,7 +117,8 @@ impl Lit {
         Self { name, with_sky, without_sky, days: Day::ALL.to_vec() }
     }
 
-    /// Under all spectra as one; none where evidence and share cannot be as high as `ln_least`.
+    /// The best scenario under all spectra as one; `None` if evidence times probability cannot reach
+    /// `ln_least`.
     fn best(
         &self,
         photographs: &Photographs,
@@ -141,8 +142,8 @@ impl Lit {
         best
     }
 
-    /// How it may fall on the fold: the photograph so, the kind of day, and how often; indoors days make no
-    /// difference.
+    /// Scenarios of the light: the photograph in it, the kind of day, and the probability; indoors days make
+    /// no difference.
     fn scenarios(&self) -> Vec<(&Parts, Day, f64)> {
         let stated = &self.with_sky.stated;
         if stated.daylight.is_none() {

@@ -1,18 +1,18 @@
-//! Functions of albedo by their values at Chebyshev nodes.
+//! Functions of albedo, represented by their values at Chebyshev nodes.
 
 use nalgebra::DMatrix;
 
-/// Nodes of albedo that are enough for every bounce.
+/// Number of albedo nodes, sufficient for all bounces.
 pub const NODES: usize = 10;
 
-/// Chebyshev nodes of [0, 1], from the first kind.
+/// Chebyshev nodes of the first kind on [0, 1].
 #[must_use]
 pub fn nodes(count: usize) -> Vec<f64> {
     let angle = |n: usize| std::f64::consts::PI * (n as f64 + 0.5) / count as f64;
     (0..count).map(|n| 0.5 * (1.0 - angle(n).cos())).collect()
 }
 
-/// Chebyshev polynomials of [0, 1] at `points`, and their derivatives: polynomial by point.
+/// Chebyshev polynomials on [0, 1] at `points`, and their derivatives: polynomial by point.
 pub(super) fn chebyshev(points: &[f64], count: usize) -> (DMatrix<f64>, DMatrix<f64>) {
     let (mut values, mut slopes) = (DMatrix::zeros(count, points.len()), DMatrix::zeros(count, points.len()));
     for (column, point) in points.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Under which conditions a photograph was taken.
+//! The conditions of a photograph.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,13 +8,13 @@ use crate::estimate::emission::Backing;
 use crate::estimate::unknowns::Normal;
 use crate::spectrum::daylight_weights;
 
-/// All that the facets of a photograph depend on, beside the spectrum and the kind of sheet.
+/// Everything that determines the facets of a photograph, apart from the spectrum and the sheet model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conditions {
-    /// Value of a perfect white diffuser facing the sun in its strongest channel, or what a chart in the
-    /// light of sun and sky made of it.
+    /// Value in the strongest channel of a perfect white diffuser facing the sun, or of a chart in the light
+    /// of sun and sky.
     pub exposure: f64,
-    /// Gains of the first and the last of three channels beside the second.
+    /// Gains of the first and the last of three channels relative to the second.
     pub gains: [f64; 2],
     /// Angle between the panels, degrees.
     pub angle_deg: f64,
@@ -24,17 +24,17 @@ pub struct Conditions {
     pub sun_mired: Option<f64>,
     /// The kind of day.
     pub day: Day,
-    /// Irradiance of a plane that faces the sun by the sun; 1 where that is not hidden.
+    /// Irradiance from the sun on a plane facing it; 1 unless the sun is hidden.
     pub sun: f64,
-    /// Irradiance of an open horizontal plane by the sky; 1 where the sun is hidden.
+    /// Irradiance from the sky on an open horizontal plane; 1 if the sun is hidden.
     pub sky: f64,
-    /// Share of the sky's light that is an overcast one's.
+    /// Share of the sky's light that has the distribution of an overcast sky.
     pub cloud: f64,
-    /// How far above the horizon the fold opens, degrees.
+    /// Elevation above the horizon of the direction in which the fold opens, degrees.
     pub elevation_deg: f64,
-    /// Irradiance of an open plane by light that is alike in all directions.
+    /// Irradiance on an open plane from uniform light.
     pub even_sky: f64,
-    /// Reciprocal colour temperature of the sky, 1e-6/K; none if its colour is given.
+    /// Reciprocal colour temperature of the sky, 1e-6/K; `None` if its colour is stated.
     pub sky_mired: Option<f64>,
     /// Reflectance of the ground at 550 nm.
     pub ground: f64,
@@ -42,39 +42,39 @@ pub struct Conditions {
     pub ground_redness: f64,
     /// Radius of the rounded crease, in depths of the panels.
     pub crease_radius: f64,
-    /// By how much both panels turn over their depth, degrees.
+    /// Turn of both panels over their depth, degrees.
     pub bow_deg: f64,
-    /// By how much panel 0 turns more than their mean, and panel 1 less, degrees.
+    /// Excess of the turn of panel 0 over the mean of both, degrees; panel 1 has as much less.
     pub bow_difference_deg: f64,
-    /// Depth of a panel over the distance of the lamp that lights it; 0 of the sun.
+    /// Panel depth divided by the distance of the lamp that lights the sheet; 0 for the sun.
     pub nearness: f64,
-    /// By how much end 1 of the crease has less light than end 0, relative to the middle.
+    /// Loss of light from end 0 to end 1 of the crease, relative to the middle.
     pub fall_off: f64,
-    /// Share of the light that the lens loses in the corners of the picture.
+    /// Share of the light lost by the lens in the corners of the picture.
     pub vignetting: f64,
-    /// Veiling glare: share of the picture's mean light that the lens spreads over all of it.
+    /// Veiling glare: share of the picture's mean light that the lens spreads evenly over it.
     pub veiling_glare: f64,
-    /// Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5
-    /// being 1.
+    /// Specular weight: strength of the surface's reflection, relative to a bare surface of refractive
+    /// index 1.5.
     pub specular_weight: f64,
-    /// Roughness of the surface: α of its microfacets' distribution (GGX).
+    /// Specular roughness: α of the GGX microfacet distribution.
     pub specular_roughness: f64,
-    /// Roughness of the body: Oren and Nayar's σ, degrees.
+    /// Body roughness: σ of Oren and Nayar's model, degrees.
     pub body_roughness_deg: f64,
     /// Sheen: brightening of the body at grazing incidence or viewing.
     pub sheen: f64,
 }
 
-/// What was stated about a photograph.
+/// Everything stated about a photograph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedScene {
-    /// The priors on it.
+    /// The priors in use.
     pub priors: &'static Priors,
     /// The exposure, if it is known.
     pub exposure: Option<f64>,
-    /// Logarithm of what it is in an unclouded sun by the camera's settings, if they are known.
+    /// Logarithm of the exposure in an unclouded sun, from the camera's settings, if they are known.
     pub metered: Option<Normal>,
-    /// Whether a chart or a card in the light of sun and sky told the exposure and balanced the channels.
+    /// True if a chart or a card in the light of sun and sky gave the exposure and balanced the channels.
     pub by_chart: bool,
     /// Number of channels.
     pub channels: usize,
@@ -84,60 +84,58 @@ pub struct StatedScene {
     pub angle_sd_deg: f64,
     /// Angle of the sun off the bisecting plane, degrees.
     pub tilt_deg: f64,
-    /// The daylight that the illuminant is, if it is any. Up and down are known then, so that sky and ground
-    /// are.
+    /// The illuminant as daylight, if it is one. The orientation is known then, and with it sky and ground.
     pub daylight: Option<Daylight>,
-    /// Whether that was assumed, as nobody stated it.
+    /// True if the illuminant was assumed, because none was stated.
     pub is_daylight_assumed: bool,
-    /// Irradiance by the sky that somebody stated, that by the sun being 1.
+    /// Stated irradiance from the sky, relative to the sun's.
     pub sky: Option<f64>,
-    /// What of the sky somebody stated beside that, if it is not alike in all directions.
+    /// Other stated properties of the sky, if it is not uniform.
     pub sky_kind: Option<SkyKind>,
-    /// Irradiance by the sun of a plane that faces it, as it was stated: 1, or 0 if the sky is alone.
+    /// Stated irradiance from the sun on a plane facing it: 1, or 0 if there is only a sky.
     pub sun: f64,
-    /// Whether the sky's colour is given.
+    /// True if the sky's colour is stated.
     pub has_sky_illuminant: bool,
     /// What is behind the sheet.
     pub backing: Backing,
-    /// The kind of day that it is taken to have been.
+    /// The assumed kind of day.
     pub day: Day,
-    /// What a known sheet showed of the daylight, if one did.
+    /// The daylight inferred from a known sheet, if there is one.
     pub shown: Option<ShownDaylight>,
 }
 
-/// Daylight as a photograph of a known sheet shows it, by kinds of days.
+/// Daylight inferred from a photograph of a known sheet, for each kind of day.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShownDaylight {
-    /// How probable each kind of day is.
+    /// Probability of each kind of day.
     pub shares: [f64; Day::ALL.len()],
     /// Reciprocal colour temperature of the sun, 1e-6/K, where it is unknown.
     pub sun: [Option<Normal>; Day::ALL.len()],
-    /// The same of the sky.
+    /// The same for the sky.
     pub sky: [Option<Normal>; Day::ALL.len()],
 }
 
 impl StatedScene {
-    /// Irradiance by the sky of an ideal fold as it was stated, alike in all directions, that by the sun
-    /// being 1.
+    /// Irradiance from a uniform sky on an ideal fold, as stated, relative to the sun's.
     #[must_use]
     pub fn even_sky(&self) -> f64 {
         self.sky.filter(|_| self.sky_kind.is_none()).unwrap_or(0.0)
     }
 
-    /// The same of a sky with a horizon.
+    /// The same for a sky with a horizon.
     #[must_use]
     pub fn sky_above_horizon(&self) -> f64 {
         self.sky.filter(|_| self.sky_kind.is_some()).unwrap_or(0.0)
     }
 
-    /// How far above the horizon the fold opens, degrees, by the zenith that somebody stated.
+    /// Elevation of the direction in which the fold opens, degrees, if the zenith was stated.
     #[must_use]
     pub fn elevation_deg(&self) -> Option<f64> {
         self.sky_kind.filter(|kind| kind.is_zenith_stated).map(|kind| kind.elevation_deg)
     }
 
-    /// How many photographs are taken on such a day, of those of which this was stated: on days with another
-    /// sky, or in the sun where there is none, they are mistakes.
+    /// Probability of this kind of day, given the statement: days with another sky, or with sun where none
+    /// was stated, are mistakes.
     #[must_use]
     pub fn share_of(&self, day: Day) -> f64 {
         if let Some(shown) = self.shown {
@@ -153,8 +151,8 @@ impl StatedScene {
         }
     }
 
-    /// Logarithm of the exposure by the camera's settings, in daylight of this day; of a lamp they tell
-    /// nothing.
+    /// Logarithm of the exposure from the camera's settings, in daylight of this day; they reveal nothing
+    /// about lamps.
     #[must_use]
     pub fn metered_exposure(&self) -> Option<Normal> {
         self.metered
@@ -162,54 +160,54 @@ impl StatedScene {
             .map(|in_the_sun| self.day.metered(self.priors, in_the_sun))
     }
 
-    /// Whether somebody stated the exposure, rather than that a chart or a card shows it.
+    /// True if the exposure was stated, rather than given by a chart or a card.
     #[must_use]
     pub fn is_exposure_stated(&self) -> bool {
         self.exposure.is_some() && !self.by_chart
     }
 }
 
-/// A sky with a horizon, as it was stated.
+/// A stated sky with a horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyKind {
-    /// Whether clouds cover it.
+    /// True if it is covered by clouds.
     pub is_overcast: bool,
-    /// How far above the horizon the fold opens, degrees.
+    /// Elevation above the horizon of the direction in which the fold opens, degrees.
     pub elevation_deg: f64,
-    /// Whether somebody said so: straight up is what nobody has to say of a computed fold.
+    /// True if the zenith was stated; for a computed fold straight up is the default.
     pub is_zenith_stated: bool,
 }
 
-/// Daylight of a reciprocal colour temperature, 1e-6/K.
+/// Daylight with a reciprocal colour temperature, 1e-6/K.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Daylight {
-    /// As CIE 15 has it, which people say of any.
+    /// CIE 15 daylight, which users state for any daylight.
     Cie {
-        /// Of the one that was said.
+        /// That of the stated illuminant.
         mired: f64,
     },
-    /// As a sun has it that was measured or computed.
+    /// Measured or computed sunlight.
     OfSun {
-        /// Of the CIE daylight that is nearest to it.
+        /// That of the nearest CIE daylight.
         mired: f64,
     },
 }
 
-/// The reddest daylight that CIE 15 has, 4000 K, and a bluer one than any sky's, 1e-6/K.
+/// The reddest daylight of CIE 15, 4000 K, and one bluer than any sky, 1e-6/K.
 const MOST_MIRED: f64 = 250.0;
 const LEAST_MIRED: f64 = 40.0;
 
-/// A light is CIE daylight if that is all that it is off from one of them, relative to its mean, and the
-/// sun's if that is: computed suns are off by 0.025, and by 0.05 where they stand 10° high; of lamps the
-/// nearest is off by 0.27.
+/// A light is CIE daylight if it differs from one by less than the first of these, relative to its mean, and
+/// the sun's if by less than the second. Computed suns differ by 0.025, and by 0.05 at an elevation of 10°;
+/// the nearest lamp by 0.27.
 const CIE: f64 = 0.005;
 const DAYLIGHT: f64 = 0.06;
-/// The bluest daylight that people take the sun's for, 8000 K.
+/// The bluest daylight taken for the sun's, 8000 K.
 const BLUEST_SUN_MIRED: f64 = 125.0;
 
 impl Daylight {
-    /// The daylight that a sun of this power was said to be, if it is any; `vectors`: mean daylight and its
-    /// two characteristic vectors, waveband by three.
+    /// The daylight that a sun with this power stands for, if it is any; `vectors`: mean daylight and its two
+    /// characteristic vectors, waveband by three.
     #[must_use]
     pub fn of(vectors: &DMatrix<f64>, sun: &DVector<f64>) -> Option<Self> {
         let sun = sun / sun.mean();
@@ -227,8 +225,8 @@ impl Daylight {
         }
     }
 
-    /// Relative power of daylight of a reciprocal colour temperature, from its mean and two characteristic
-    /// vectors (waveband by three).
+    /// Relative power of daylight with a reciprocal colour temperature, from mean daylight and its two
+    /// characteristic vectors (waveband by three).
     ///
     /// # Source
     /// CIE 15:2018, section 4.1.2, not rounded.

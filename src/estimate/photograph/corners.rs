@@ -1,19 +1,19 @@
-//! What facets gain and lose where a corner of a panel is not where it was marked.
+//! Changes of the facets if a corner of a panel is not where it was marked.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::finding::Finding;
 use super::parts::Place;
 
-/// How the values of all facets change, channel by channel and in each facet by facet, for each corner that
-/// is off by one depth of a panel: the two ends of the crease, then the two outer corners of either panel.
+/// Changes of the values of all facets, ordered by channel and then facet, for each corner displaced by one
+/// panel depth: the two ends of the crease, then the two outer corners of either panel.
 ///
-/// A corner that is off shifts the facets beside it in proportion to how near it is; what that changes is
-/// determined by the facets before and behind. Shifts along the crease, along which light changes little, are
-/// left out.
+/// A displaced corner shifts nearby facets in proportion to their proximity; the resulting change follows
+/// from the next facets inwards and outwards. Shifts along the crease, where light varies little, are
+/// omitted.
 ///
 /// # Arguments
-/// - `places`: of the facets; `values`: facet by channel.
+/// - `places`: positions of the facets; `values`: facet by channel.
 #[must_use]
 pub fn shifts(places: &[Place], values: &DMatrix<f64>) -> Vec<DVector<f64>> {
     let slopes = slopes(places, values);
@@ -25,7 +25,7 @@ pub fn shifts(places: &[Place], values: &DMatrix<f64>) -> Vec<DVector<f64>> {
     let mut all = Vec::new();
     for end in ends {
         let near = |place: &Place| end(place.along / width);
-        // a crease moved into one panel is moved out of the other
+        // a crease displaced into one panel is displaced out of the other
         let into = |place: &Place| if place.panel == 0 { -1.0 } else { 1.0 };
         all.push(column(&|place| (1.0 - place.depth) * near(place) * into(place)));
         for panel in [0, 1] {
@@ -36,28 +36,29 @@ pub fn shifts(places: &[Place], values: &DMatrix<f64>) -> Vec<DVector<f64>> {
     all
 }
 
-/// Length of the crease, in depths of a panel: facets begin and end as far from its ends.
+/// Length of the crease, in panel depths: facets begin and end at equal distances from its ends.
 #[must_use]
 pub fn width(places: &[Place]) -> f64 {
     let along = || places.iter().map(|place| place.along);
     along().fold(0.0, f64::max) + along().fold(f64::INFINITY, f64::min)
 }
 
-/// Corners that are off by that much, in depths of a panel, are named.
+/// Smallest displacement of a corner that is reported, in panel depths.
 const LEAST: f64 = 0.015;
 
-/// Corners that what is left of the facets says to be elsewhere than they are marked.
+/// Corners that, according to the residuals of the facets, are not where they are marked.
 ///
 /// # Arguments
-/// - `shifts`: of [`shifts`], whitened like `residuals`; `sd`: how far a corner is off before a picture is
-///   taken, in depths of a panel.
+/// - `shifts`: from [`shifts`], whitened like `residuals`; `sd`: prior standard deviation of a corner's
+///   displacement, in panel depths.
 #[must_use]
 pub fn findings(shifts: &[DVector<f64>], residuals: &DVector<f64>, sd: f64) -> Vec<Finding> {
     const NAMES: [&str; 3] =
         ["of the crease", "of the outer side of panel 0", "of the outer side of panel 1"];
     let found = |(n, shift): (usize, &DVector<f64>)| {
         let off = (sd * sd * shift.dot(residuals)).abs();
-        // residuals hold what corners do among all that the model lacks: this is the part that is still open
+        // residuals contain the effect of corners among everything that the model lacks: this part remains
+        // open
         let open = (1.0 - sd * sd * shift.norm_squared()).max(0.0);
         (off > LEAST && off > 2.0 * sd * open.sqrt()).then(|| Finding {
             what: format!(
@@ -73,8 +74,7 @@ pub fn findings(shifts: &[DVector<f64>], residuals: &DVector<f64>, sd: f64) -> V
     shifts.iter().enumerate().filter_map(found).collect()
 }
 
-/// Change of each facet's values for a depth of the panel outwards, from the next facets on either side in
-/// its column.
+/// Change of each facet's values per panel depth outwards, from the next facets on either side in its column.
 fn slopes(places: &[Place], values: &DMatrix<f64>) -> DMatrix<f64> {
     let mut slopes = DMatrix::zeros(values.nrows(), values.ncols());
     for (n, place) in places.iter().enumerate() {
@@ -95,16 +95,16 @@ fn slopes(places: &[Place], values: &DMatrix<f64>) -> DMatrix<f64> {
     slopes
 }
 
-/// Facets of a column are no further apart along the crease than that, in depths of a panel: some of their
-/// pixels may be missing.
+/// Maximum distance along the crease between facets of a column, in panel depths: some of their pixels may be
+/// missing.
 const SAME_COLUMN: f64 = 0.12;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A value that rises evenly with the depth: where the crease is marked too far in panel 1, panel 1 is
-    /// read too deep near it.
+    /// A value that rises evenly with depth: where the crease is marked too far into panel 1, panel 1 is read
+    /// too deep near it.
     #[test]
     fn a_shifted_corner_reads_what_is_beside() {
         let place = |n: usize| Place {

@@ -1,35 +1,35 @@
-//! Kinds of days: where daylight comes from.
+//! Kinds of day: the origin of daylight.
 
 use super::priors::Priors;
 use crate::estimate::unknowns::Normal;
 
-/// Where daylight comes from.
+/// The origin of daylight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Day {
-    /// From the sun, and little from a blue sky.
+    /// The sun, and little from a blue sky.
     Clear,
-    /// From the sun and a bright sky: haze, thin cloud.
+    /// The sun and a bright sky: haze, thin cloud.
     Hazy,
-    /// From clouds.
+    /// Clouds.
     Overcast,
-    /// From a blue sky, the sun hidden.
+    /// A blue sky, with the sun hidden.
     Shade,
 }
 
-/// A kind of day that a photograph shows.
+/// The kind of day inferred from a photograph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DayEstimate {
-    /// The most probable one.
+    /// The most probable kind.
     pub day: Day,
-    /// How probable it is.
+    /// Its probability.
     pub probability: f64,
 }
 
 impl Day {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 4] = [Self::Clear, Self::Hazy, Self::Overcast, Self::Shade];
 
-    /// In a word or two.
+    /// Short name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -40,7 +40,7 @@ impl Day {
         }
     }
 
-    /// The day of which somebody speaks who states such a sky.
+    /// The kind of day implied by such a stated sky.
     pub(super) fn with(is_sunny: bool, is_overcast: bool) -> Self {
         match (is_sunny, is_overcast) {
             (true, true) => Self::Hazy,
@@ -58,14 +58,14 @@ impl Day {
         }
     }
 
-    /// Whether the sun shines.
+    /// True if the sun shines.
     #[must_use]
     pub fn has_sun(self) -> bool {
         matches!(self, Self::Clear | Self::Hazy)
     }
 
-    /// Irradiance of an open horizontal plane by the sky, that of a plane that faces the sun by the sun being
-    /// 1; none if the sun is hidden. People know no better of one that they state.
+    /// Irradiance from the sky on an open horizontal plane, relative to that from the sun on a plane facing
+    /// it; `None` if the sun is hidden. A stated value is no more accurate.
     #[must_use]
     pub fn sky(self, priors: &Priors, stated: Option<f64>) -> Option<Normal> {
         match self {
@@ -90,16 +90,16 @@ impl Day {
         }
     }
 
-    /// Share of the sky's light that is an overcast one's, the rest being a clear one's; none where it is all
-    /// of it or nothing.
+    /// Share of the sky's light that has the distribution of an overcast sky, the rest being a clear one's;
+    /// `None` if it is all or nothing.
     #[must_use]
     pub fn cloud(self, priors: &Priors) -> Option<Normal> {
         let hazy = Normal { mean: priors.hazy_cloud, sd: priors.hazy_cloud };
         (self == Self::Hazy).then_some(hazy)
     }
 
-    /// Logarithm of the exposure, if that of an unclouded sun is `in_the_sun`: what haze takes from the sun
-    /// it adds to the sky.
+    /// Logarithm of the exposure, given that in an unclouded sun: light that haze takes from the sun is added
+    /// to the sky.
     #[must_use]
     pub fn metered(self, priors: &Priors, in_the_sun: Normal) -> Normal {
         let Normal { mean, sd } = in_the_sun;
@@ -112,13 +112,13 @@ impl Day {
         }
     }
 
-    /// Share of the light on an open horizontal plane that is the sky's, as a rule.
+    /// Usual share of the sky in the light on an open horizontal plane.
     #[must_use]
     pub fn diffuse_share(self, priors: &Priors) -> f64 {
         if self.has_sun() { (1.0 + self.usual_sky(priors).recip()).recip() } else { 1.0 }
     }
 
-    /// Irradiance by the sky where the sun shines, that by the sun being 1.
+    /// Irradiance from the sky relative to the sun's, on days with sun.
     fn usual_sky(self, priors: &Priors) -> f64 {
         if self == Self::Hazy { priors.hazy_sky } else { priors.sky }
     }

@@ -1,4 +1,4 @@
-//! What no unknown explains: smooth over a panel, alike in the channels.
+//! The model error: what no unknown explains, smooth over a panel and similar in all channels.
 
 use nalgebra::{Cholesky, DMatrix, DMatrixView, DVector, Dyn, U1};
 
@@ -11,33 +11,33 @@ use super::sums::add;
 /// Correlated error of facets, relative to their values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelError {
-    /// Standard deviation of what all channels share.
+    /// Standard deviation of the part shared by all channels.
     pub shared: f64,
-    /// Of what each channel has to itself.
+    /// Of the part of each channel by itself.
     pub own: f64,
-    /// Of what each facet has to itself.
+    /// Of the part of each facet by itself.
     pub white: f64,
-    /// Of what the facets at the crease have to themselves, nearly all of it in all channels: the crease is
-    /// not as sharp, nor as round, as the model has it.
+    /// Of the facets at the crease by themselves, nearly the same in all channels: the crease is not as
+    /// sharp, or as round, as in the model.
     pub at_crease: f64,
-    /// Of what the facets at the outer sides have to themselves, nearly all of it in all channels: an edge is
-    /// not straight, nor sharp, so that some of the background is taken for the sheet.
+    /// Of the facets at the outer sides by themselves, nearly the same in all channels: an edge is not
+    /// straight or sharp, so that some background counts as sheet.
     pub at_outer_side: f64,
-    /// How far a corner is from where it is marked, in depths of a panel.
+    /// Displacement of a corner from its mark, in panel depths.
     pub corner: f64,
-    /// Length over which it is correlated, in depths of a panel.
+    /// Correlation length, in panel depths.
     pub length: f64,
-    /// Of one panel beside the other, in all channels alike: light that comes from aside.
+    /// Of one panel relative to the other, the same in all channels: light from the side.
     pub aside: f64,
 }
 
-/// Depth over which the crease or an outer side matters, in depths of a panel.
+/// Depth over which the crease or an outer side matters, in panel depths.
 const SIDE_DEPTH: f64 = 0.06;
-/// Share of the variance there that is alike in all channels.
+/// Share of the variance there that is common to all channels.
 const SIDE_SHARED: f64 = 0.8;
 
 impl ModelError {
-    /// That of photographs of sheets that the kinds describe, on such a day.
+    /// For photographs of sheets that the sheet models describe, on this kind of day.
     #[must_use]
     pub fn of(priors: &Priors, day: Day) -> Self {
         let diffuse = day.diffuse_share(priors);
@@ -53,7 +53,7 @@ impl ModelError {
         }
     }
 
-    /// The same in a photograph that is so many times as far from an ideal one.
+    /// The same for a photograph that deviates from the ideal `by` times as much.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
         let &Self { shared, own, white, at_crease, at_outer_side, corner, length, aside } = self;
@@ -69,12 +69,12 @@ impl ModelError {
         }
     }
 
-    /// What makes errors of all values standard normal; none if their covariance is not finite.
+    /// The whitening of the errors of all values; `None` if their covariance is not finite.
     ///
     /// # Arguments
-    /// - `places`: of the facets; `values`, `sd`: facet by channel, the values as they are predicted and the
-    ///   standard deviations of their noise. Of measured values those that chance made too small would count
-    ///   for more (R. W. Peelle, Oak Ridge National Laboratory, 1987).
+    /// - `places`: positions of the facets; `values`, `sd`: facet by channel, predicted values and the
+    ///   standard deviations of their noise. With measured values, those that are too small by chance would
+    ///   count for more (R. W. Peelle, Oak Ridge National Laboratory, 1987).
     #[must_use]
     pub fn whitening(&self, places: &[Place], values: &DMatrix<f64>, sd: &DMatrix<f64>) -> Option<Whitening> {
         let facets = values.nrows();
@@ -109,7 +109,7 @@ impl ModelError {
         let factor = Cholesky::new(covariance)?.unpack();
         let mut inverse = DMatrix::zeros(count, count);
         for n in 0..count {
-            // what is before the diagonal stays 0
+            // entries before the diagonal remain 0
             let mut column = inverse.view_mut((n, n), (count - n, 1));
             column[0] = 1.0;
             factor.view((n, n), (count - n, count - n)).solve_lower_triangular_mut(&mut column);
@@ -118,7 +118,7 @@ impl ModelError {
         Some(Whitening { inverse, ln_determinant })
     }
 
-    /// Variance of what a facet has to itself at the crease and at the outer side.
+    /// Variance of a facet's own error at the crease and at the outer side.
     fn at_sides(&self, place: &Place) -> f64 {
         let at = |sd: f64, away: f64| (sd * (-0.5 * (away / SIDE_DEPTH).powi(2)).exp()).powi(2);
         at(self.at_crease, place.depth) + at(self.at_outer_side, 1.0 - place.depth)
@@ -130,23 +130,23 @@ impl ModelError {
     }
 }
 
-/// What makes errors of all values standard normal: the inverse of the Cholesky factor of their covariance.
+/// Whitens the errors of all values: the inverse of the Cholesky factor of their covariance.
 pub struct Whitening {
     inverse: DMatrix<f64>,
     ln_determinant: f64,
 }
 
-/// Rows that are multiplied at once: of a triangle, half of the work is saved but for these.
+/// Rows multiplied at once: of a triangle, half of the work is saved, except within these.
 const ROWS: usize = 60;
 
 impl Whitening {
-    /// Logarithm of the factor by which it makes volumes of errors larger.
+    /// Its log determinant, the logarithm of the factor by which it enlarges volumes of errors.
     #[must_use]
     pub fn ln_determinant(&self) -> f64 {
         self.ln_determinant
     }
 
-    /// Errors of all values, channel by channel and in each facet by facet.
+    /// Whitens the errors of all values, ordered by channel and then facet.
     #[must_use]
     pub fn of(&self, errors: &DVector<f64>) -> DVector<f64> {
         let mut white = DVector::zeros(errors.len());
@@ -167,7 +167,7 @@ impl Whitening {
         white
     }
 
-    /// A few rows after the other, up to the diagonal of the last of them, and where that is.
+    /// Blocks of a few rows, up to the diagonal of the last, with its index.
     fn rows(&self) -> impl Iterator<Item = (DMatrixView<'_, f64, U1, Dyn>, usize)> {
         let count = self.inverse.nrows();
         (0..count).step_by(ROWS).map(move |start| {

@@ -17,11 +17,11 @@ use crate::estimate::prior::Prior;
 use crate::estimate::unknowns::EXPOSURE;
 use crate::solve::posterior::{Linearised, Model, information};
 
-/// Channels that tell classes apart.
+/// Number of channels that distinguish classes.
 const TELLING_CHANNELS: usize = 3;
-/// A maximum counts as found within this many standard deviations of it.
+/// A mode counts as found within this many standard deviations.
 const TOLERANCE: f64 = 0.03;
-/// A number is determined by the facets if its standard deviation is below that share of what it was before.
+/// A number is determined by the facets if its standard deviation is below this share of the prior one.
 const SUPPORTED: f64 = 0.8;
 /// Step of difference quotients, in standard deviations.
 const STEP: f64 = 1e-3;
@@ -29,37 +29,37 @@ const STEP: f64 = 1e-3;
 /// Photographs of one sheet.
 pub struct Photographs<'a>(pub Vec<Photograph<'a>>);
 
-/// A photograph at a maximum.
+/// A photograph at a mode.
 pub struct Seen {
     /// Exposure.
     pub exposure: f64,
-    /// Unknowns of the scene that make a difference.
+    /// Unknowns of the scene that have an effect.
     pub fitted: Vec<Fitted>,
-    /// What is left of the facets, whitened.
+    /// Whitened residuals of the facets.
     pub residuals: DVector<f64>,
-    /// What is left of the light, as a share.
+    /// Share of the light left unexplained.
     pub unexplained: f64,
-    /// What corners do to the facets, whitened.
+    /// Whitened changes of the facets by displaced corners.
     pub shifts: Vec<DVector<f64>>,
 }
 
 impl<'a> Photographs<'a> {
-    /// Those that are made of these parts.
+    /// From the parts of each photograph.
     pub fn of(parts: &'a [Parts]) -> Self {
         Self(Photograph::all(parts))
     }
 
-    /// One that is taken to be in the light of other parts, which are the same otherwise.
+    /// The same photograph assumed to be in the light of other parts, which are otherwise the same.
     pub fn in_light_of(&self, parts: &'a Parts) -> Self {
         Self(self.0.iter().map(|photograph| photograph.in_light_of(parts)).collect())
     }
 
-    /// How many numbers their model has; none if it is not finite.
+    /// Number of unknowns of the model; `None` if it is not finite.
     pub fn unknowns(&self, hypothesis: Hypothesis, prior: &Prior) -> Option<usize> {
         self.model(hypothesis, prior.broad()).map(|model| model.unknowns())
     }
 
-    /// Where `other` photographs are at `w` under a hypothesis, carried to these; none if a model is not
+    /// Transfers the point `w` of `other` photographs under a hypothesis to these; `None` if a model is not
     /// finite.
     pub fn carried(
         &self,
@@ -71,12 +71,12 @@ impl<'a> Photographs<'a> {
         Some(here?.carried(&there?, w))
     }
 
-    /// The priors on them.
+    /// The priors in use.
     pub fn priors(&self) -> &'static Priors {
         self.0.first().map_or(&Priors::USUAL, |photograph| photograph.parts.stated.priors)
     }
 
-    /// Each photograph at a maximum; none if the model is not finite.
+    /// Each photograph at a mode; `None` if the model is not finite.
     pub fn seen(&self, LocalMode { start, at, .. }: &LocalMode<Hypothesis, ()>) -> Option<Vec<Seen>> {
         let model = self.model(start.hypothesis, &start.gaussian)?;
         let lower = model.information(&start.w, at)?;
@@ -118,7 +118,7 @@ impl<'a> Family for Photographs<'a> {
         JointModel::new(&self.0, hypothesis, gaussian)
     }
 
-    /// Computed pictures are of spectra that are known.
+    /// Probabilities are not tempered for computed pictures, which are of known spectra.
     fn ln_class_shares(&self, hypothesis: Hypothesis, prior: &Prior) -> Vec<f64> {
         let is_ideal = hypothesis.imperfection.is_ideal();
         let of_all = prior.ln_shares(if is_ideal { 1.0 } else { self.priors().class_share_power });
@@ -133,7 +133,7 @@ impl<'a> Family for Photographs<'a> {
         self.0.iter().any(|photograph| photograph.parts.values.ncols() >= TELLING_CHANNELS)
     }
 
-    /// Noise of photographs is not so small that classes are distinguished at a larger one.
+    /// Noise of photographs is never so small that classes are distinguished at a larger one.
     fn peak(&self) -> f64 {
         0.0
     }
@@ -156,7 +156,7 @@ impl SpectrumModel for JointModel<'_> {
         at.jacobian.columns(0, coordinates) * coordinates_of
     }
 
-    /// 45:0 reflectance, then albedo, then what the sheet sends out itself as a fraction of white.
+    /// 45:0 reflectance, then albedo, then emission as a fraction of white.
     fn values(&self, w: &DVector<f64>) -> Vec<f64> {
         let first = self.first();
         let own = first.own(w);
@@ -202,9 +202,9 @@ impl JointModel<'_> {
         slopes(first, self.unknowns(), &own, &point).rows(0, point.albedo.len()).into_owned()
     }
 
-    /// A factor of the information at a maximum, all that is [told](PhotographModel::by_nominal) of camera
-    /// and light being numbers, too: an ideal fold is estimated as if that were exact, but is not known
-    /// better than if it were not.
+    /// A factor of the information at a mode, with everything that is [stated](PhotographModel::by_nominal)
+    /// about camera and light as additional numbers: an ideal fold is estimated as if the statements were
+    /// exact, but its uncertainty is not reduced.
     fn information(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {
         // ideal folds are not joined
         let stated = match self.members() {
@@ -217,8 +217,8 @@ impl JointModel<'_> {
     }
 }
 
-/// Derivatives of reflectance and albedo by all `unknowns` of photographs of a sheet, the numbers of the
-/// `first` being `w`.
+/// Derivatives of reflectance and albedo by all `unknowns` of photographs of a sheet, where `w` are the
+/// numbers of the `first`.
 fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> DMatrix<f64> {
     let [scene, sheet, camera, emission, _] = first.model.layout();
     let basis = first.model.gaussian().basis();

@@ -1,14 +1,14 @@
-//! What is not ideal about a photograph.
+//! Deviations of a photograph from the ideal.
 
-/// Something that is not ideal about a photograph. The estimate allows for it; a photograph without it tells
-/// more.
+/// A deviation of a photograph from the ideal. The estimate allows for it, but a photograph without it
+/// reveals more.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     /// What is wrong.
     pub what: String,
-    /// What to do about it.
+    /// What to do.
     pub remedy: &'static str,
-    /// Whether it is by more than people err and sheets differ: where facets say so, something else is wrong
-    /// as a rule.
+    /// True if it exceeds the errors of users and the differences of sheets: then usually something else is
+    /// wrong.
     pub is_unusual: bool,
 }

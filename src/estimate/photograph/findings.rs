@@ -1,4 +1,4 @@
-//! What a photograph shows that sets its fold apart from an ideal one, in the words of who took it.
+//! Deviations of a photographed fold from an ideal one, in the photographer's words.
 
 use super::conditions::StatedScene;
 use super::day::{Day, DayEstimate};
@@ -7,12 +7,12 @@ use super::hypotheses::Hypothesis;
 use super::number::Number;
 use crate::estimate::Fitted;
 
-/// Differences from what is ideal, in standard deviations, of which a word is said.
+/// Deviations from the ideal are reported above this many standard deviations.
 const SURE: f64 = 2.0;
-/// Numbers are unusual that far from what was known before, as standard normal ones: one in forty is.
+/// A number is unusual at this distance from its prior mean, in standard deviations: one in forty is.
 const UNUSUAL: f64 = 2.24;
 
-/// Other light than that of a clear day.
+/// Light other than that of a clear day.
 #[must_use]
 pub fn of_day(DayEstimate { day, .. }: DayEstimate) -> Option<Finding> {
     let what = match day {
@@ -28,7 +28,7 @@ pub fn of_day(DayEstimate { day, .. }: DayEstimate) -> Option<Finding> {
     })
 }
 
-/// What the facets tell of the unknowns under a hypothesis, what they are surest of first.
+/// Findings on the unknowns under a hypothesis, the most certain first.
 #[must_use]
 pub fn of_unknowns(fitted: &[Fitted], stated: &StatedScene, hypothesis: Hypothesis) -> Vec<Finding> {
     let numbers = Number::all(stated, hypothesis);

@@ -1,4 +1,4 @@
-//! What a photograph may be taken to be, and how often it is so.
+//! Hypotheses on a photograph, and their probabilities.
 
 use super::conditions::StatedScene;
 use super::day::Day;
@@ -7,40 +7,39 @@ use super::priors::Priors;
 use super::sheet_models::SheetModel;
 use super::whitened::Photograph;
 
-/// What a photograph is taken to be.
+/// A hypothesis on a photograph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hypothesis {
-    /// The kind of its sheet.
+    /// Its sheet model.
     pub kind: SheetModel,
-    /// How far it is from an ideal one.
+    /// Its deviation from the ideal.
     pub imperfection: Imperfection,
     /// The kind of day on which it was taken.
     pub day: Day,
-    /// What is not as it was stated, if anything is.
+    /// The statement that is wrong, if any.
     pub mistake: Option<Mistake>,
-    /// What the sheet sends out itself, as a place among
-    /// [all that it may](crate::estimate::emission::Emission::all), nothing being the first; none where that
-    /// is not asked.
+    /// The emission of the sheet, as an index into [all possible
+    /// ones](crate::estimate::emission::Emission::all), the first of which is none; `None` if emission is not
+    /// considered.
     pub emission: Option<usize>,
 }
 
-/// What may be another thing altogether than was stated. Angle and exposure are never exact in photographs as
-/// people take them, where mistakes are in the tails of their priors; in a scene that is computed they are,
-/// or are mistaken.
+/// A statement that may be entirely wrong. In usual photographs, angle and exposure are never exact, and
+/// mistakes are in the tails of their priors; in a computed scene they are exact or mistaken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
     /// No light bounces between the panels: a flat sheet, a ridge, corners elsewhere.
     NoFold,
-    /// The exposure that somebody stated is not that of the picture.
+    /// The stated exposure is not that of the picture.
     Exposure,
-    /// The angle that somebody stated is not that of the fold.
+    /// The stated angle is not that of the fold.
     Angle,
-    /// Another sky than was stated lights it, alike in all directions.
+    /// Another sky than the stated one lights it uniformly.
     Sky,
 }
 
 impl Mistake {
-    /// How often it is made.
+    /// Its probability.
     fn share(self, priors: &Priors) -> f64 {
         match self {
             Self::NoFold => priors.no_fold_share,
@@ -52,8 +51,8 @@ impl Mistake {
 /// All hypotheses on photographs of folds, the most probable first.
 pub fn hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
     let mut all = usual_hypotheses();
-    // the sensitivities of another camera are never those of this one; an ideal fold is the same whatever its
-    // sheet's kind
+    // the sensitivities of another camera are never exactly those of this one; an ideal fold is the same for
+    // every sheet model
     if !photographs.iter().any(|photograph| photograph.parts.eye.is_stand_in) {
         let mistakes = [None, Some(Mistake::Angle), Some(Mistake::Sky)];
         all.extend(mistakes.map(Hypothesis::ideal));
@@ -64,37 +63,37 @@ pub fn hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
     all
 }
 
-/// Hypotheses on photographs as people take them.
+/// Hypotheses on usual photographs.
 pub fn usual_hypotheses() -> Vec<Hypothesis> {
     SheetModel::ALL.map(Hypothesis::usual).to_vec()
 }
 
-/// Days other than clear ones on which photographs may have been taken.
+/// Kinds of day, other than clear ones, on which photographs may have been taken.
 pub fn dull_days(photographs: &[Photograph]) -> Vec<Day> {
     let are_in_daylight = photographs.iter().all(|photograph| photograph.parts.stated.daylight.is_some());
     Day::ALL.into_iter().filter(|day| are_in_daylight && *day != Day::Clear).collect()
 }
 
-/// Hypotheses on what is no fold.
+/// Hypotheses without a fold.
 pub fn hypotheses_without_bounces() -> [Hypothesis; 2] {
     let mistake = Some(Mistake::NoFold);
     [Hypothesis { mistake, ..Hypothesis::usual(SheetModel::Matt) }, Hypothesis::ideal(mistake)]
 }
 
 impl Hypothesis {
-    /// A photograph as people take them, of this kind of sheet.
+    /// A usual photograph with this sheet model.
     #[must_use]
     pub fn usual(kind: SheetModel) -> Self {
         Self { kind, imperfection: Imperfection::USUAL, day: Day::Clear, mistake: None, emission: None }
     }
 
-    /// One as people take them under another sky than a clear day's.
+    /// A usual photograph under another sky than that of a clear day.
     #[must_use]
     pub fn on_dull_day(day: Day, kind: SheetModel) -> Self {
         Self { day, ..Self::usual(kind) }
     }
 
-    /// One of an ideal fold, all as stated but for a mistake.
+    /// An ideal fold, everything as stated except for a mistake.
     #[must_use]
     pub fn ideal(mistake: Option<Mistake>) -> Self {
         // the sky of a computed scene is white rather than blue
@@ -102,7 +101,7 @@ impl Hypothesis {
         Self { kind: SheetModel::Matt, imperfection: Imperfection::IDEAL, day, mistake, emission: None }
     }
 
-    /// Logarithm of how often it is true of photographs of which this was stated.
+    /// Logarithm of its probability, given what was stated about a photograph.
     pub fn ln_share(&self, stated: &StatedScene) -> f64 {
         let priors = stated.priors;
         let of_mistake = self.mistake.map_or(0.0, |mistake| mistake.share(priors).ln());
@@ -112,8 +111,7 @@ impl Hypothesis {
         if self.has_bounces() { of_fold + of_mistake } else { of_mistake }
     }
 
-    /// What it does not share with another, that comes first which changes most of where the search under it
-    /// leads.
+    /// Differences from another hypothesis, ordered by how much they change the result of a search.
     pub fn differences(&self, other: &Self) -> [bool; 5] {
         [
             self.imperfection != other.imperfection,
@@ -124,17 +122,17 @@ impl Hypothesis {
         ]
     }
 
-    /// Whether it is a fold on a clear day as people take them.
+    /// True for a usual photograph of a fold on a clear day.
     pub fn is_usual_fold(&self) -> bool {
         *self == Self::usual(self.kind)
     }
 
-    /// Whether light bounces between the panels, as it does in a fold.
+    /// True if light bounces between the panels, as in a fold.
     pub fn has_bounces(&self) -> bool {
         self.mistake != Some(Mistake::NoFold)
     }
 
-    /// Which of the stated values to use.
+    /// The stated values to be used.
     pub fn stated(&self, stated: &StatedScene) -> StatedScene {
         let exposure = match self.mistake {
             Some(Mistake::Exposure) if stated.is_exposure_stated() => None,

@@ -1,30 +1,30 @@
-//! How far a photograph is from one of an ideal fold.
+//! Deviation of a photograph from that of an ideal fold.
 
 use super::priors::Priors;
 
-/// How much there is of all that an ideal fold lacks at once.
+/// Common amount of all effects that an ideal fold lacks.
 ///
-/// None is chosen: estimates are made under each that the facets leave possible, and weighed by evidence.
+/// No value is chosen: estimates are made under each one that the facets permit, and weighed by evidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Imperfection {
-    /// Size of crease, bow, sky, ground, vignetting and glare, of what sets the sheet apart from a matt one,
-    /// and of what angle, tilt, exposure, light and camera are off from those that were stated; 0: nothing,
-    /// 1: as in photographs that people take.
+    /// Size of crease, bow, sky, ground, vignetting and glare, of the sheet's differences from a matte one,
+    /// and of errors in the stated angle, tilt, exposure, light and camera; 0: nothing, 1: as in usual
+    /// photographs.
     pub scale: f64,
-    /// How much no unknown explains.
+    /// Size of the model error.
     pub discrepancy: Discrepancy,
 }
 
-/// How much no unknown explains, that of photographs as people take them being 1.
+/// Size of the model error, relative to usual photographs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Discrepancy {
     /// Nothing.
     None,
-    /// A sixteenth, in a simulated picture.
+    /// A sixteenth, for simulated pictures.
     Tiny,
-    /// A quarter, in a picture that was taken with care.
+    /// A quarter, for pictures taken with care.
     Small,
-    /// As in people's photographs.
+    /// As in usual photographs.
     Usual,
 }
 
@@ -42,26 +42,25 @@ impl Discrepancy {
 }
 
 impl Imperfection {
-    /// A photograph as people take them.
+    /// A usual photograph.
     pub const USUAL: Self = Self { scale: 1.0, discrepancy: Discrepancy::Usual };
-    /// That of an ideal fold, of a perfectly matt sheet, in a scene that is exactly as it was stated: one
-    /// that was computed. With what is between the two weighed as well, facets are explained wrongly and
-    /// surely (docs/design-notes.md).
+    /// An ideal fold of a perfectly matte sheet in a scene exactly as stated: a computed one. If intermediate
+    /// values were weighed as well, facets would be explained wrongly but confidently (docs/design-notes.md).
     pub const IDEAL: Self = Self { scale: 0.0, discrepancy: Discrepancy::None };
 
-    /// Logarithm of how often it is so.
+    /// Logarithm of its probability.
     #[must_use]
     pub fn ln_share(&self, priors: &Priors) -> f64 {
         if self.is_ideal() { priors.ideal_share.ln() } else { (1.0 - priors.ideal_share).ln() }
     }
 
-    /// Whether the fold is an ideal one, of a sheet that is perfectly matt.
+    /// True for an ideal fold of a perfectly matte sheet.
     #[must_use]
     pub fn is_ideal(&self) -> bool {
         self.scale <= 0.0
     }
 
-    /// The same where unknowns explain nearly all.
+    /// The same with smaller model errors, where unknowns explain almost everything.
     #[must_use]
     pub fn with_less_discrepancy(self) -> [Self; 2] {
         [Discrepancy::Small, Discrepancy::Tiny].map(|discrepancy| Self { discrepancy, ..self })

@@ -1,6 +1,5 @@
 //! Photographs of one sheet as one model: they share the spectrum, the sheet's own unknowns and variations,
-//! and the errors of a camera that took more than one of them; each has a fold, a light and a lens of its
-//! own.
+//! and the errors of a camera that took several of them; fold, light and lens are individual.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,23 +10,23 @@ use super::whitened::Photograph;
 use crate::estimate::gaussian::Gaussian;
 use crate::solve::posterior::{Linearised, Model};
 
-/// One of the photographs within the model of all.
+/// One of the photographs within the joint model.
 pub struct Member<'a> {
-    /// The model of this one alone.
+    /// The model of this photograph alone.
     pub model: PhotographModel<'a>,
-    /// Which of all numbers each of its own is.
+    /// Index, among all numbers, of each of its own.
     places: Vec<usize>,
 }
 
 impl Member<'_> {
-    /// Which of all numbers the model's `n`-th is.
+    /// Index, among all numbers, of the model's `n`-th.
     #[must_use]
     pub fn place(&self, n: usize) -> usize {
         self.places[n]
     }
 
-    /// Which of all numbers is what the `n`-th of another model is, if this one has it: lamps have none of
-    /// daylight's.
+    /// Index, among all numbers, of the counterpart of the `n`-th of another model, if this one has it: lamps
+    /// lack those of daylight.
     fn place_like(&self, other: &PhotographModel, n: usize) -> Option<usize> {
         let ([scene, sheet, camera, emission, _], own) = (other.layout(), self.model.layout());
         let at = match n {
@@ -43,15 +42,15 @@ impl Member<'_> {
         self.places.get(at).copied()
     }
 
-    /// Its own numbers among all.
+    /// Its own numbers, selected from all.
     #[must_use]
     pub fn own(&self, w: &DVector<f64>) -> DVector<f64> {
         DVector::from_iterator(self.places.len(), self.places.iter().map(|place| w[*place]))
     }
 }
 
-/// All photographs of a sheet under one hypothesis and one Gaussian of albedos: numbers of the spectrum
-/// first.
+/// All photographs of a sheet under one hypothesis and one Gaussian of albedos; the numbers of the spectrum
+/// come first.
 pub struct JointModel<'a> {
     /// The photographs, one or more.
     members: Vec<Member<'a>>,
@@ -59,7 +58,7 @@ pub struct JointModel<'a> {
 }
 
 impl<'a> JointModel<'a> {
-    /// The model; none if facets are not finite.
+    /// The model; `None` if facets are not finite.
     #[must_use]
     pub fn new(
         photographs: &'a [Photograph<'a>],
@@ -97,7 +96,7 @@ impl<'a> JointModel<'a> {
         Some(Self { members, count })
     }
 
-    /// The first of the photographs: spectrum and sheet are the same in all.
+    /// The first photograph: spectrum and sheet are common to all.
     pub fn first(&self) -> &Member<'a> {
         &self.members[0]
     }
@@ -108,8 +107,8 @@ impl<'a> JointModel<'a> {
         &self.members
     }
 
-    /// Where another model of the same photographs is at `w`, as far as this one has the same numbers; the
-    /// others are at their means.
+    /// Transfers the point `w` of another model of the same photographs, as far as this one has the same
+    /// numbers; the others are at their means.
     #[must_use]
     pub fn carried(&self, other: &JointModel, w: &DVector<f64>) -> DVector<f64> {
         let mut carried = DVector::zeros(self.count);
@@ -149,7 +148,7 @@ impl Model for JointModel<'_> {
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
-        // its numbers are all there are
+        // its numbers are the only ones
         if let [only] = self.members.as_slice() {
             return only.model.linearise(w);
         }
@@ -167,7 +166,7 @@ impl Model for JointModel<'_> {
         Linearised { residuals, jacobian, second: () }
     }
 
-    /// Left out: the priors bound the unknowns, and the noise of photographs is no constraint.
+    /// Omitted: the priors bound the unknowns, and the noise of photographs does not act as a constraint.
     fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
         None
     }

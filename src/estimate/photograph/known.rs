@@ -1,4 +1,4 @@
-//! A photograph of a sheet whose reflectance is known, to tell the light by.
+//! A photograph of a sheet with known reflectance, used to infer the light.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -15,26 +15,26 @@ use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::{Normal, SKY_COLOUR, SUN_COLOUR, Unknown};
 use crate::solve::posterior::{Limits, Linearised, Model, Solution, find_mode, first_tempering, information};
 
-/// A maximum counts as found within so many standard deviations of it: what is left out is less than one of
-/// evidence. A search ends after so many iterations.
+/// A mode counts as found within this many standard deviations, which changes the log evidence by much less
+/// than one. A search ends after this many iterations.
 const TOLERANCE: f64 = 0.1;
 const LIMIT: usize = 500;
-/// What each waveband of a known reflectance is off by itself: the last digit in which instruments state it,
-/// halved.
+/// Error of each waveband of a known reflectance by itself: half of the last digit that instruments give.
 const WHITE_SD: f64 = 5e-4;
-/// Share of a kind of day that a known sheet all but rules out: a cloud passes between two photographs.
+/// Minimum probability of a kind of day that a known sheet all but rules out: a cloud may pass between two
+/// photographs.
 const OTHER_DAY: f64 = 1e-3;
 
-/// A reflectance that is known, and how far it may be off.
+/// A known reflectance with its errors.
 #[derive(Clone, Debug)]
 pub struct KnownReflectance {
     reflectance: DVector<f64>,
-    /// What makes its errors standard normal.
+    /// Whitens its errors.
     whitening: DMatrix<f64>,
 }
 
 impl KnownReflectance {
-    /// One that is off by this standard deviation in each waveband, smoothly over the wavelengths; none
+    /// A reflectance with this standard deviation in each waveband, smooth over the wavelengths; `None`
     /// without wavelengths.
     #[must_use]
     pub fn new(wavelengths_nm: &[f64], reflectance: &[f64], sd: &[f64]) -> Option<Self> {
@@ -48,7 +48,7 @@ impl KnownReflectance {
     }
 }
 
-/// Facets and reflectance of a known sheet: the latter is one datum more for each waveband.
+/// Facets and reflectance of a known sheet: the latter adds one datum per waveband.
 struct KnownModel<'a> {
     photograph: JointModel<'a>,
     known: &'a KnownReflectance,
@@ -92,7 +92,7 @@ impl Model for KnownModel<'_> {
         Linearised { residuals: stacked(&residuals, &self.of_reflectance(w)), jacobian, second: () }
     }
 
-    /// As that of photographs.
+    /// Omitted as for photographs.
     fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
         None
     }
@@ -100,20 +100,20 @@ impl Model for KnownModel<'_> {
 
 /// A photograph of a known sheet on a kind of day.
 pub struct KnownSeen {
-    /// Logarithm of the probability of its facets, but for a term that is the same in all lights.
+    /// Log evidence of its facets, up to a term common to all lights.
     pub ln_evidence: f64,
-    /// Where its search ended.
+    /// The end of its search.
     pub w: DVector<f64>,
-    /// Reciprocal colour temperatures of sun and sky, 1e-6/K, where these are unknown.
+    /// Reciprocal colour temperatures of sun and sky, 1e-6/K, where they are unknown.
     sun: Option<Normal>,
     sky: Option<Normal>,
-    /// What is left of its facets, in units of what is expected.
+    /// Root mean square residual of its facets, relative to the expected error.
     pub rms: f64,
 }
 
 impl Photographs<'_> {
-    /// The photograph as one of a known sheet, from `start` on if it has as many numbers; none if its
-    /// evidence is less than `ln_least`.
+    /// Treats the photograph as one of a known sheet, starting from `start` if it has the right length;
+    /// `None` if the evidence is below `ln_least`.
     pub fn known(
         &self,
         day: Day,
@@ -155,8 +155,7 @@ impl Photographs<'_> {
     }
 }
 
-/// What a known sheet shows of daylight, by kinds of days: these with how often they are and what it is on
-/// them.
+/// Daylight inferred from a known sheet, for the given kinds of day with their probabilities and results.
 #[must_use]
 pub fn shown_daylight(days: &[(Day, f64, KnownSeen)]) -> Option<ShownDaylight> {
     let most =

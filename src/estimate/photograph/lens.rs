@@ -1,4 +1,4 @@
-//! What makes values of the radiances of facets: the camera, and light that is not alike along the crease.
+//! From radiances of facets to values: the camera, and light that varies along the crease.
 
 use nalgebra::DMatrix;
 
@@ -9,14 +9,14 @@ use super::parts::{Parts, Place};
 
 /// Exposure, gains, fall-off of the light, vignetting and glare.
 pub struct Lens {
-    /// Brightness of each facet and channel for a radiance of 1: facet by channel.
+    /// Value of each facet and channel for radiance 1: facet by channel.
     scale: DMatrix<f64>,
     /// Share of a channel's mean that is spread over all facets.
     veiling_glare: f64,
 }
 
 impl Lens {
-    /// That of a photograph taken under these conditions, in this light.
+    /// For a photograph taken under these conditions in this light.
     #[must_use]
     pub fn new(parts: &Parts, conditions: &Conditions, lighting: &Lighting) -> Self {
         let brightness = lighting.exposure(parts, conditions) * lighting.gains(parts, conditions);
@@ -35,7 +35,7 @@ impl Lens {
         Self { scale, veiling_glare: conditions.veiling_glare }
     }
 
-    /// Values of radiances: facet by channel.
+    /// Converts radiances to values: facet by channel.
     #[must_use]
     pub fn seen(&self, mut radiances: DMatrix<f64>) -> DMatrix<f64> {
         let facets = radiances.nrows();
@@ -45,7 +45,7 @@ impl Lens {
         radiances
     }
 
-    /// Makes values of the radiances of all facets in one channel.
+    /// Converts the radiances of all facets in one channel to values.
     pub fn see(&self, channel: usize, radiances: &mut [f64]) {
         let facets = radiances.len();
         let mut sum = 0.0;

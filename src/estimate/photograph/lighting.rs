@@ -1,26 +1,24 @@
-//! The light in which a sheet stands: sun, sky and ground, and what a white chart makes of it.
+//! The light on a sheet (sun, sky and ground), and its effect on a white chart.
 
 use nalgebra::DVector;
 
 use super::conditions::{Conditions, Daylight};
 use super::parts::{Parts, Surroundings, shares_at};
 
-/// Sun, sky and ground as the channels take them in.
+/// Sun, sky and ground in terms of the channels.
 pub struct Lighting {
-    /// Power of the sun, which gives 1 in the reference channel.
+    /// Power of the sun, normalised to 1 in the reference channel.
     pub sun: DVector<f64>,
-    /// Power of the sky and of the ground, each with the irradiance of an open plane that faces it: the first
-    /// for an irradiance of 1 by the sky in the reference channel, the second for a reflectance of the ground
-    /// of 1.
+    /// Power of the sky and of the ground, each with the irradiance of an open plane facing it: the former
+    /// for irradiance 1 from the sky in the reference channel, the latter for ground of reflectance 1.
     pub ambient: [(f64, DVector<f64>); 2],
-    /// What a white sheet that faces the sun receives, channel by channel, the light of the sun as it was
-    /// said being 1; none if the exposure is that of the sun alone, as it is where the sun shines and no
-    /// chart shows it.
+    /// Light received by a white sheet facing the sun, channel by channel, relative to the stated sun; `None`
+    /// if the exposure refers to the sun alone, which it does where the sun shines and no chart is used.
     white: Option<DVector<f64>>,
 }
 
 impl Lighting {
-    /// That of a photograph taken under these conditions.
+    /// For a photograph taken under these conditions.
     #[must_use]
     pub fn new(parts: &Parts, conditions: &Conditions) -> Self {
         let [sun, sky, ground] = powers(parts, conditions);
@@ -43,14 +41,13 @@ impl Lighting {
         Self { sun, ambient: [(sky_amount, sky), (ground_amount, ground)], white }
     }
 
-    /// The exposure: value of a perfect white diffuser that faces the sun, in the sun alone.
+    /// The exposure: value of a perfect white diffuser facing the sun, in the sun alone.
     #[must_use]
     pub fn exposure(&self, parts: &Parts, conditions: &Conditions) -> f64 {
         conditions.exposure / self.white.as_ref().map_or(1.0, |white| white[parts.eye.reference])
     }
 
-    /// Gains of the channels: a chart makes them those of the light that was said, in the light that there
-    /// is.
+    /// Gains of the channels: in the actual light, a chart adjusts them to those of the stated light.
     #[must_use]
     pub fn gains(&self, parts: &Parts, conditions: &Conditions) -> DVector<f64> {
         let Parts { eye, .. } = parts;

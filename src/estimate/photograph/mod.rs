@@ -1,13 +1,13 @@
 //! Photographs of real sheets: every effect that an ideal fold lacks is estimated together with the spectrum,
 //! as an unknown with a prior.
 //!
-//! A sheet reflects more at some angles than at others, its crease is round and its panels bow, the sky and
-//! the ground shine into the fold, the sun is warmer than it was said to be, the lens darkens the corners.
-//! Each of these is an unknown with a prior that says how well people know it
-//! ([`unknowns::TABLE`](super::unknowns::TABLE)); what is left is an error that is smooth over a panel and
-//! alike in the channels ([`error`]). [`parts`] holds what the facets are made of, [`model`] puts it
-//! together, [`sheet_models`] are the kinds of sheets that a prior of measured materials knows, and
-//! [`search`] finds the most probable spectrum under all of them.
+//! A sheet reflects more at some angles than at others, its crease is round and its panels bow, sky and
+//! ground shine into the fold, the sun is warmer than stated, the lens darkens the corners. Each effect is an
+//! unknown with a prior that reflects how well it is usually known
+//! ([`unknowns::TABLE`](super::unknowns::TABLE)); the remainder is an error that is smooth over a panel and
+//! similar in all channels ([`error`]). [`parts`] holds the ingredients of the facets, [`model`] combines
+//! them, [`sheet_models`] are the models known from measured materials, and [`search`] finds the most
+//! probable spectrum under all of them.
 
 pub mod chebyshev;
 pub mod conditions;

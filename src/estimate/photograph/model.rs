@@ -1,5 +1,5 @@
-//! The facets of a photograph as a model of standard normal numbers: those behind the spectrum of the sheet's
-//! albedo, the unknowns of the scene, the variations of a kind of sheet, and the errors of the camera's
+//! The facets of a photograph as a model of standard normal numbers: those of the spectrum of the sheet's
+//! albedo, the unknowns of the scene, the variations of a sheet model, and the errors of the camera's
 //! sensitivities.
 
 use std::borrow::Cow;
@@ -26,10 +26,10 @@ use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::Known;
 use crate::solve::posterior::{Linearised, Model};
 
-/// Step of the difference quotients by unknowns of the scene, in standard deviations.
+/// Step of the difference quotients for unknowns of the scene, in standard deviations.
 const STEP: f64 = 1e-3;
-/// Albedo below which light that a sheet sends out is not distinguished from what it reflects of more light:
-/// darker sheets hardly light themselves.
+/// Albedo below which emission is not distinguished from the reflection of more light: darker sheets hardly
+/// light themselves.
 const DARKEST: f64 = 0.01;
 
 /// The model under one hypothesis and one Gaussian of albedos.
@@ -37,14 +37,14 @@ pub struct PhotographModel<'a> {
     parts: &'a Parts,
     sheet_models: &'a SheetModels<'a>,
     hypothesis: Hypothesis,
-    /// What the sheet sends out itself; none if nothing.
+    /// The emission of the sheet; `None` without any.
     emission: Option<&'a Emission>,
     gaussian: &'a Gaussian,
     whitening: &'a Whitening,
-    /// What was stated about the photograph, as far as it is used.
+    /// The stated properties of the photograph that are used.
     stated: StatedScene,
     numbers: Vec<Number>,
-    /// From values at the nodes to Chebyshev coefficients.
+    /// Maps values at the nodes to Chebyshev coefficients.
     coefficients: DMatrix<f64>,
     /// Errors of the camera's sensitivities: waveband by error.
     curve_errors: DMatrix<f64>,
@@ -52,19 +52,19 @@ pub struct PhotographModel<'a> {
 
 /// A point of the model in its own units.
 pub struct Point {
-    /// Albedo of the sheet in every waveband: reflectance for light from all directions into all directions.
+    /// Albedo of the sheet per waveband: reflectance for light from all directions into all directions.
     pub albedo: Vec<f64>,
     /// Conditions.
     pub conditions: Conditions,
-    /// How the sheet departs from a Lambertian one.
+    /// The sheet's departure from a Lambertian one.
     pub departure: Departure,
-    /// Exposure: value of a perfect white diffuser that faces the sun, in the sun alone.
+    /// Exposure: value of a perfect white diffuser facing the sun, in the sun alone.
     pub exposure: f64,
 }
 
 impl<'a> PhotographModel<'a> {
-    /// The model; `whitening` makes residuals of all values, channel by channel and in each facet by facet,
-    /// standard normal.
+    /// The model; `whitening` makes the residuals of all values, ordered by channel and then facet, standard
+    /// normal.
     #[must_use]
     pub fn new(
         parts: &'a Parts,
@@ -97,8 +97,8 @@ impl<'a> PhotographModel<'a> {
         &self.numbers
     }
 
-    /// Where the unknowns of the scene begin, the variations of the sheet, the errors of the camera, what the
-    /// sheet sends out itself, and how many numbers there are.
+    /// First indices of the unknowns of the scene, the variations of the sheet, the errors of the camera and
+    /// the emission, and the total number of unknowns.
     #[must_use]
     pub fn layout(&self) -> [usize; 5] {
         let scene = self.gaussian.basis().ncols();
@@ -154,9 +154,8 @@ impl<'a> PhotographModel<'a> {
         conditions
     }
 
-    /// Terms for an albedo, and what the sheet sends out itself: it looks as one without does in light that
-    /// is (1 + f / albedo) times as strong, f being a fraction of white or, of light from behind, in
-    /// proportion to the albedo's square.
+    /// The terms for an albedo, including emission: a sheet that emits looks like one that does not in light
+    /// that is (1 + f / albedo) times as strong. Of light from behind, f is proportional to the albedo's square.
     fn terms(&self, w: &DVector<f64>, albedo: &[f64]) -> Terms {
         let mut terms = self.reflected_terms(albedo);
         if let Some((sent, power)) = self.sent(w) {
@@ -172,20 +171,21 @@ impl<'a> PhotographModel<'a> {
         terms
     }
 
-    /// The sheet's emission at `w`, and the power of the albedo with which it grows; none if nothing.
+    /// The emission of the sheet at `w`, and the power of the albedo to which it is proportional; `None`
+    /// without any.
     fn sent(&self, w: &DVector<f64>) -> Option<(Sent, i32)> {
         let emission = self.emission?;
         Some((emission.at(self.of_emission(w)), emission.power_of_reflectance()))
     }
 
-    /// The numbers of what the sheet sends out itself.
+    /// The numbers of the emission.
     fn of_emission<'w>(&self, w: &'w DVector<f64>) -> &'w [f64] {
         let [.., emission, end] = self.layout();
         &w.as_slice()[emission..end]
     }
 
-    /// The fraction of white that the sheet sends out at `w` in every waveband, and its derivatives by the
-    /// numbers of what is sent out, then by the logit of the albedo: waveband by number. None if nothing.
+    /// The emission of the sheet at `w` as a fraction of white, and its derivatives by the numbers of the
+    /// emission, then by the logit of the albedo: waveband by number. `None` without any.
     #[must_use]
     pub fn fraction_sent(&self, w: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let (Sent { mut fraction, slopes, .. }, power) = self.sent(w)?;
@@ -200,14 +200,13 @@ impl<'a> PhotographModel<'a> {
         Some((fraction, slopes))
     }
 
-    /// How logits fall towards what makes the sheet fluoresce, if they do.
+    /// The fall of logits towards the wavelengths that excite the sheet, if there is one.
     #[must_use]
     pub fn fall(&self, w: &DVector<f64>) -> Option<Fall<'a>> {
         self.emission?.fall(self.of_emission(w))
     }
 
-    /// Derivatives of the terms by the numbers of what the sheet sends out itself, node by waveband; none if
-    /// nothing.
+    /// Derivatives of the terms by the numbers of the emission, node by waveband; `None` without emission.
     fn terms_by_emission(
         &self,
         w: &DVector<f64>,
@@ -237,9 +236,9 @@ impl<'a> PhotographModel<'a> {
             let (values, slopes) = chebyshev(albedo, count);
             return Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes };
         }
-        // of a dark sheet light bounces once. What a Lambertian one sends for each unit of its albedo is
-        // smoother than what it sends, and has no end; gloss does not vanish with albedo, and only the slope
-        // is determined
+        // in a dark sheet light bounces once. A Lambertian sheet's radiance per unit of albedo is smoother
+        // than the radiance itself and stays finite; specular reflection does not vanish with albedo, and
+        // only the slope is determined
         let (values, slopes) = chebyshev(&[0.0], count);
         let once = if self.hypothesis.imperfection.is_ideal() {
             (&self.coefficients * values).component_div(&DMatrix::from_column_slice(count, 1, &nodes(count)))
@@ -261,7 +260,7 @@ impl<'a> PhotographModel<'a> {
         logit
     }
 
-    /// What `w` means.
+    /// The point at `w` in its own units.
     #[must_use]
     pub fn point(&self, w: &DVector<f64>) -> Point {
         let conditions = self.conditions(w);
@@ -280,14 +279,14 @@ impl<'a> PhotographModel<'a> {
         self.sheet_models.departure(kind, imperfection.scale, conditions, variations)
     }
 
-    /// What the facets have more than those of a Lambertian sheet.
+    /// Radiance of the facets minus that of a Lambertian sheet.
     fn beyond(&self, w: &DVector<f64>) -> Radiance {
         let [_, sheet, camera, ..] = self.layout();
         let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
         self.departure(&self.conditions(w), &variations).radiance
     }
 
-    /// How the camera sees with the errors of its curves at `w`: waveband by channel.
+    /// The camera's sensitivities with their errors at `w`: waveband by channel.
     fn sensitivities(&self, w: &DVector<f64>) -> DMatrix<f64> {
         let Parts { eye, .. } = self.parts;
         let [_, _, camera, emission, _] = self.layout();
@@ -310,8 +309,8 @@ impl<'a> PhotographModel<'a> {
         predictor.facets(&self.conditions(w), &self.beyond(w))
     }
 
-    /// Sets derivatives of the values by the numbers of the spectrum, `slopes` being those of the terms by
-    /// albedo: through all lights at once, whose terms are far fewer than wavebands.
+    /// Computes derivatives of the values by the numbers of the spectrum, given the `slopes` of the terms by
+    /// albedo: for all lights at once, whose terms are far fewer than wavebands.
     fn by_spectrum(
         &self,
         out: &mut DMatrixViewMut<f64>,
@@ -343,8 +342,8 @@ impl<'a> PhotographModel<'a> {
         }
     }
 
-    /// Sets derivatives of the values by the errors of the camera's sensitivities, each of which changes one
-    /// channel.
+    /// Computes derivatives of the values by the errors of the camera's sensitivities, each of which affects
+    /// one channel.
     fn by_sensitivities(
         &self,
         out: &mut DMatrixViewMut<f64>,
@@ -370,9 +369,9 @@ impl<'a> PhotographModel<'a> {
         }
     }
 
-    /// Derivatives of the residuals by what an ideal fold's camera and daylight are off from those that were
-    /// stated, as two of a kind differ: they are not found there, as facets would say too surely which they
-    /// are. None where they are unknowns.
+    /// Derivatives of the residuals by deviations of an ideal fold's camera and daylight from the stated
+    /// ones, as between two of a kind: these are not fitted, as facets would determine them with too much
+    /// confidence. `None` where they are unknowns.
     #[must_use]
     pub fn by_nominal(&self, w: &DVector<f64>) -> Option<DMatrix<f64>> {
         self.hypothesis.imperfection.is_ideal().then_some(())?;
@@ -402,8 +401,8 @@ impl<'a> PhotographModel<'a> {
         Some(self.whitening.of_all(&by_nominal))
     }
 
-    /// What an instrument says beyond what the facets tell, waveband for waveband: error by waveband, none if
-    /// nothing.
+    /// Errors of an instrument's reflectance that the facets do not determine: error by waveband; `None` if
+    /// there are none.
     #[must_use]
     pub fn instrument_errors(&self, albedo: &[f64]) -> Option<DMatrix<f64>> {
         let own = match self.hypothesis.kind {
@@ -414,14 +413,14 @@ impl<'a> PhotographModel<'a> {
         smooth_errors(&self.parts.eye.wavelengths_nm, &sd)
     }
 
-    /// What a small shift of each corner does to the residuals.
+    /// Effects on the residuals of a small shift of each corner.
     #[must_use]
     pub fn shifts(&self) -> Vec<DVector<f64>> {
         let shifts = corners::shifts(&self.parts.places, &self.parts.values);
         shifts.iter().map(|shift| self.whitening.of(shift)).collect()
     }
 
-    /// What makes its residuals standard normal.
+    /// The whitening of its residuals.
     #[must_use]
     pub fn whitening(&self) -> &Whitening {
         self.whitening
@@ -439,27 +438,27 @@ impl<'a> PhotographModel<'a> {
         self.predicted(w).values
     }
 
-    /// The values that were measured: facet by channel.
+    /// The measured values: facet by channel.
     #[must_use]
     pub fn values(&self) -> &DMatrix<f64> {
         &self.parts.values
     }
 
-    /// Residuals before they are whitened: facet by channel.
+    /// Residuals before whitening: facet by channel.
     #[must_use]
     pub fn left_over(&self, w: &DVector<f64>) -> DMatrix<f64> {
         &self.parts.values - self.predicted(w).values
     }
 }
 
-/// Errors of the camera's sensitivities side by side.
+/// Errors of the camera's sensitivities, side by side.
 fn curve_errors(Parts { eye, .. }: &Parts) -> DMatrix<f64> {
     let errors = eye.errors.iter().flat_map(|(_, error)| error.iter().copied());
     DMatrix::from_iterator(eye.wavelengths_nm.len(), eye.errors.len(), errors)
 }
 
-/// How many times as strong light looks to a sheet of an albedo that sends out itself a fraction f of white
-/// times a power of that, and the derivative by albedo.
+/// Factor by which light seems stronger to a sheet of an albedo that emits a fraction f of white times a power
+/// of the albedo, and its derivative by albedo.
 fn of_albedo(albedo: f64, f: f64, power: i32) -> (f64, f64) {
     let (from, power) = (albedo.max(DARKEST), power - 1);
     let slope = f64::from(power) * f * from.powi(power - 1);
@@ -507,7 +506,7 @@ impl Model for PhotographModel<'_> {
             let moved = predictor.shifted(&here, &self.conditions(&shifted), &beyond, effect.whose);
             jacobian.column_mut(n).copy_from(&(in_order(&(moved - values)) / STEP));
         }
-        // variations of the sheet and errors of the curves enter in proportion
+        // variations of the sheet and errors of the sensitivities enter linearly
         let sun = &lights[0];
         let variations = self.sheet_models.by_variation(kind, imperfection.scale * conditions.sun);
         for (n, change) in (sheet..).zip(variations.filter(|_| !imperfection.is_ideal())) {
@@ -530,7 +529,7 @@ impl Model for PhotographModel<'_> {
         }
     }
 
-    /// Left out: the priors bound the unknowns, and the noise of photographs is no constraint.
+    /// Omitted: the priors bound the unknowns, and the noise of photographs does not act as a constraint.
     fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
         None
     }

@@ -7,12 +7,12 @@ use crate::estimate::unknowns::{
     ANGLE, EVEN_SKY, Effect, Expectation, Known, Normal, SKY_COLOUR, TABLE, Unknown,
 };
 
-/// An unknown, and what is known of it in a photograph of some imperfection.
+/// An unknown with its prior in a photograph of some imperfection.
 #[derive(Clone, Copy)]
 pub struct Number {
-    /// What it is.
+    /// The unknown.
     pub unknown: &'static Unknown,
-    /// What it does.
+    /// Its effect.
     pub effect: &'static Effect,
     prior: Expectation,
     tail: f64,
@@ -20,16 +20,17 @@ pub struct Number {
 }
 
 impl Number {
-    /// Those of a photograph.
+    /// All numbers of a photograph.
     #[must_use]
     pub fn all(stated: &StatedScene, Hypothesis { imperfection, mistake, .. }: Hypothesis) -> Vec<Self> {
         let number = |unknown: &&'static Unknown| {
             let effect = unknown.photograph.as_ref()?;
             let (own, known) = ((effect.prior)(stated), (effect.known)(stated));
-            // what does not occur on this day has a place, so that a search may go on from another day
+            // unknowns that do not occur on this day keep a place, so that a search can start from another
+            // day
             let of_day = |day: &Day| (effect.prior)(&StatedScene { day: *day, ..*stated });
             let prior = own.or_else(|| Day::ALL.iter().find_map(of_day))?;
-            // of an ideal fold nothing is open but what is mistaken
+            // in an ideal fold only what is mistaken is unknown
             let matters = own.is_some()
                 && match mistake {
                     _ if matches!(known, Known::Usual | Known::Metered) => true,
@@ -48,14 +49,14 @@ impl Number {
         TABLE.iter().filter_map(number).collect()
     }
 
-    /// Whether it makes any difference.
+    /// True if it has any effect.
     #[must_use]
     pub fn matters(&self) -> bool {
         self.matters
     }
 
-    /// Value at `w`, a standard normal number, and its derivative by it, in the unit of the unknown. Heavy
-    /// tails are those of sinh(tw) / t, which near 0 is w.
+    /// Value at `w`, a standard normal number, and its derivative, in the unit of the unknown. Heavy tails
+    /// are those of sinh(tw) / t, which is w near 0.
     ///
     /// # Source
     /// M. C. Jones, A. Pewsey, "Sinh-arcsinh distributions", *Biometrika* 96 (2009), p. 761.
@@ -68,7 +69,7 @@ impl Number {
         (unit * value, unit * by_x * sd * by_w)
     }
 
-    /// The standard normal number at which it has this value.
+    /// The standard normal number for a value.
     #[must_use]
     pub fn normal(&self, value: f64) -> f64 {
         let Expectation { unit, normal: Normal { mean, sd } } = self.prior;

@@ -1,4 +1,4 @@
-//! What the facets of a photograph are made of: light of each kind, as functions of the sheet's albedo.
+//! Ingredients of the facets of a photograph: light of each kind, as a function of the sheet's albedo.
 
 use std::sync::Arc;
 
@@ -9,28 +9,28 @@ use super::sheets::Sheets;
 pub use super::sums::Radiance;
 use super::sums::add;
 
-/// Where a facet is.
+/// Position of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Panel.
     pub panel: usize,
-    /// Distance from the crease, in depths of the panel.
+    /// Distance from the crease, in panel depths.
     pub depth: f64,
-    /// Place along the crease, in depths of the panel.
+    /// Position along the crease, in panel depths.
     pub along: f64,
-    /// Square of the distance from the picture's centre, that of a corner being 1.
+    /// Squared distance from the picture's centre, relative to that of the picture's corners.
     pub off_centre: f64,
 }
 
-/// A change of the fold, known at some sizes beside none: between them it is a polynomial of its size.
+/// A change of the fold, tabulated at some sizes other than zero; in between it is a polynomial in its size.
 #[derive(Clone, Debug)]
 pub struct Change {
-    /// Sizes, none of them zero, and what each does to the facets.
+    /// Nonzero sizes, and the effect of each on the facets.
     pub known: Vec<(f64, Radiance)>,
 }
 
 impl Change {
-    /// Adds what a change of this size does to so much light.
+    /// Adds the effect of a change of this size on this amount of light.
     pub fn add_to(&self, sum: &mut Radiance, amount: f64, size: f64) {
         for (n, (own, radiance)) in self.known.iter().enumerate() {
             let others =
@@ -44,62 +44,62 @@ impl Change {
     }
 }
 
-/// The fold as the sun lights it.
+/// The fold in sunlight.
 #[derive(Clone, Debug)]
 pub struct Sunlit {
-    /// A sun on the bisecting plane, for each unit of the cosine of its tilt.
+    /// For a sun on the bisecting plane, per unit of the cosine of its tilt.
     pub even: Radiance,
-    /// What is added for each unit of the sine of its tilt.
+    /// Addition per unit of the sine of its tilt.
     pub odd: Radiance,
-    /// More degrees between the panels than was said.
+    /// Difference between the angle and the stated one, degrees.
     pub angle_deg: Change,
-    /// The radius of the crease, in depths of the panels.
+    /// Radius of the crease, in panel depths.
     pub crease_radius: Change,
     /// Bow of both panels, degrees.
     pub bow_deg: Change,
-    /// Bow of panel 0 and the opposite of panel 1, degrees.
+    /// Bow of panel 0 and the opposite bow of panel 1, degrees.
     pub bow_difference_deg: Change,
-    /// Depth of a panel over the distance of a lamp that stands in the sun's place.
+    /// Panel depth divided by the distance of a lamp in the sun's place.
     pub nearness: Change,
 }
 
-/// Elevations above the horizon of the direction to which the fold opens, degrees, at which light of the
-/// surroundings is known.
+/// Elevations of the direction in which the fold opens, degrees, at which light of the surroundings is
+/// tabulated.
 pub const ELEVATIONS_DEG: [f64; 3] = [15.0, 45.0, 75.0];
 
-/// Light that is not the sun's, at each of [`ELEVATIONS_DEG`].
+/// Light other than the sun's, at each of [`ELEVATIONS_DEG`].
 #[derive(Clone, Debug)]
 pub struct Ambient {
-    /// The facets, for an irradiance of 1 on an open plane that faces the source.
+    /// The facets, for irradiance 1 on an open plane facing the source.
     pub radiance: [Radiance; 3],
-    /// Irradiance of an open plane that faces the way the fold does.
+    /// Irradiance of an open plane facing as the fold does.
     pub open: [f64; 3],
-    /// What the facets have more for each degree between the panels.
+    /// Change of the facets per degree of angle between the panels.
     pub by_angle: Radiance,
-    /// For the radius of the crease.
+    /// Change with the radius of the crease.
     pub crease_radius: Change,
-    /// For each degree of bow of both panels.
+    /// Change per degree of bow of both panels.
     pub by_bow: Radiance,
 }
 
-/// All of it.
+/// All light of the surroundings.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
-    /// Of a clear sky.
+    /// From a clear sky.
     pub clear: Ambient,
-    /// Of an overcast one.
+    /// From an overcast sky.
     pub overcast: Ambient,
-    /// Of the ground.
+    /// From the ground.
     pub ground: Ambient,
 }
 
-/// Shares of [`ELEVATIONS_DEG`] at an elevation.
+/// Interpolation weights of [`ELEVATIONS_DEG`] at an elevation.
 #[must_use]
 pub fn shares_at(elevation_deg: f64) -> [f64; 3] {
     lagrange(ELEVATIONS_DEG, elevation_deg.clamp(0.0, 90.0))
 }
 
-/// Shares of three nodes at `x`.
+/// Interpolation weights of three nodes at `x`.
 #[must_use]
 pub fn lagrange(nodes: [f64; 3], x: f64) -> [f64; 3] {
     [0, 1, 2].map(|at| {
@@ -109,14 +109,13 @@ pub fn lagrange(nodes: [f64; 3], x: f64) -> [f64; 3] {
 }
 
 impl Ambient {
-    /// What it gives an open plane that faces the way the fold does.
+    /// Irradiance on an open plane facing as the fold does.
     #[must_use]
     pub fn open_at(&self, shares: [f64; 3]) -> f64 {
         self.open.iter().zip(shares).map(|(open, share)| open * share).sum()
     }
 
-    /// Adds so much of it to the light on the facets of a fold that is open by `stated_deg` if it is as it
-    /// was said to be.
+    /// Adds this amount of it to the light on the facets of a fold whose stated angle is `stated_deg`.
     pub fn add_to(&self, sum: &mut Radiance, amount: f64, conditions: &Conditions, stated_deg: f64) {
         let shares = shares_at(conditions.elevation_deg);
         let changes =
@@ -130,21 +129,21 @@ impl Ambient {
     }
 }
 
-/// How the camera sees light of any spectrum.
+/// The camera's response to light of any spectrum.
 #[derive(Clone, Debug)]
 pub struct Eye {
     /// Wavelengths, nm.
     pub wavelengths_nm: Vec<f64>,
     /// Sensitivity times the width of the waveband: waveband by channel.
     pub sensitivities: DMatrix<f64>,
-    /// How the sensitivities may be off, in units of a standard deviation: error by waveband, with its
+    /// Possible errors of the sensitivities, each of one standard deviation: error by waveband, with its
     /// channel.
     pub errors: Vec<(usize, DVector<f64>)>,
-    /// Whether the curves are another camera's, which stands in for it.
+    /// True if the sensitivities are those of another camera, which stands in for this one.
     pub is_stand_in: bool,
-    /// Power of the sun as it was said to be.
+    /// Stated power of the sun.
     pub sun: DVector<f64>,
-    /// Power of the sky as it was said to be.
+    /// Stated power of the sky.
     pub sky: DVector<f64>,
     /// Mean daylight and its two characteristic vectors: waveband by three.
     pub daylight: DMatrix<f64>,
@@ -153,7 +152,7 @@ pub struct Eye {
 }
 
 impl Eye {
-    /// Whether it is the same camera, as far as its curves tell.
+    /// True if it is the same camera, judging by its sensitivities.
     #[must_use]
     pub fn is(&self, other: &Self) -> bool {
         (&self.wavelengths_nm, &self.sensitivities) == (&other.wavelengths_nm, &other.sensitivities)
@@ -161,12 +160,12 @@ impl Eye {
     }
 }
 
-/// All of it. The same fold in another light shares what does not depend on that.
+/// All ingredients. The same fold in another light shares everything that does not depend on the light.
 #[derive(Clone, Debug)]
 pub struct Parts {
-    /// What was said of the photograph.
+    /// The stated properties of the photograph.
     pub stated: StatedScene,
-    /// Where the facets are.
+    /// Positions of the facets.
     pub places: Vec<Place>,
     /// Their values: facet by channel.
     pub values: DMatrix<f64>,
@@ -174,18 +173,18 @@ pub struct Parts {
     pub sd: DMatrix<f64>,
     /// Light of the sun.
     pub sun: Arc<Sunlit>,
-    /// Light that is alike in all directions, for an irradiance of 1 on an open plane.
+    /// Uniform light, for irradiance 1 on an open plane.
     pub even_sky: Radiance,
     /// Light of sky and ground.
     pub surroundings: Arc<Surroundings>,
-    /// Kinds of sheets.
+    /// Sheet models.
     pub sheets: Arc<Sheets>,
     /// The camera.
     pub eye: Eye,
 }
 
 impl Parts {
-    /// The same in a light of this power, which somebody said.
+    /// The same in a stated light of this power.
     #[must_use]
     pub fn in_light(&self, power: &[f64]) -> Self {
         let sun = DVector::from_column_slice(power);
@@ -197,7 +196,7 @@ impl Parts {
         lit
     }
 
-    /// The same in daylight that nobody stated.
+    /// The same in unstated daylight.
     #[must_use]
     pub fn in_any_daylight(&self) -> Self {
         let power = Daylight::power(&self.eye.daylight, self.stated.priors.sun_mired);
@@ -206,8 +205,7 @@ impl Parts {
         lit
     }
 
-    /// The same where light comes from one lamp, whatever its colour, and neither from a sky nor from the
-    /// ground.
+    /// The same with light from a lamp alone, whatever its colour, without sky and ground.
     #[must_use]
     pub fn without_sky(mut self) -> Self {
         self.stated.daylight = None;

@@ -1,4 +1,4 @@
-//! Facets as they are predicted from a spectrum and conditions.
+//! Facets predicted from a spectrum and conditions.
 
 use std::borrow::Cow;
 
@@ -21,7 +21,7 @@ pub struct Terms {
     pub slopes: DMatrix<f64>,
 }
 
-/// Light on the facets, and what it counts in the channels.
+/// Light on the facets, and its effect in the channels.
 pub struct Light<'a> {
     /// Facet by node.
     pub radiance: Cow<'a, Radiance>,
@@ -29,36 +29,35 @@ pub struct Light<'a> {
     pub power: DVector<f64>,
     /// Waveband by channel.
     pub weights: DMatrix<f64>,
-    /// What the radiance at the nodes counts in the channels: node by channel.
+    /// Effect of the radiance at the nodes in the channels: node by channel.
     pub to_channels: DMatrix<f64>,
 }
 
-/// Facets as they are predicted, with what they are made of.
+/// Predicted facets with their ingredients.
 pub struct Predicted<'a> {
     /// Facet by channel.
     pub values: DMatrix<f64>,
-    /// What the lens makes the values of: facet by channel.
+    /// Values before the lens: facet by channel.
     radiances: DMatrix<f64>,
     /// The lens.
     pub lens: Lens,
     lighting: Lighting,
-    /// The sun's first.
+    /// That of the sun comes first.
     pub lights: Vec<Light<'a>>,
 }
 
-/// Predicts the facets of a photograph, the spectrum of which gives these terms, through curves of these
-/// sensitivities: waveband by channel.
+/// Predicts the facets of a photograph, given the terms of a spectrum and sensitivities: waveband by channel.
 pub struct Predictor<'a, 'b> {
-    /// What the photograph is made of.
+    /// Ingredients of the photograph.
     pub parts: &'a Parts,
-    /// Of the spectrum.
+    /// Terms of the spectrum.
     pub terms: &'b Terms,
-    /// Of the camera.
+    /// Sensitivities of the camera.
     pub sensitivities: &'b DMatrix<f64>,
 }
 
 impl Predicted<'_> {
-    /// What the same light would give with these terms alone, node by waveband: facet by channel.
+    /// Values in the same light with these terms instead, node by waveband: facet by channel.
     pub fn with_terms(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
         let mut radiances = DMatrix::zeros(self.radiances.nrows(), self.radiances.ncols());
         for light in &self.lights {
@@ -71,13 +70,13 @@ impl Predicted<'_> {
 }
 
 impl<'a> Predictor<'a, '_> {
-    /// The facets of a sheet that sends `beyond` more than a Lambertian one.
+    /// The facets of a sheet whose radiance exceeds that of a Lambertian one by `beyond`.
     pub fn facets(&self, conditions: &Conditions, beyond: &Radiance) -> Predicted<'a> {
         self.in_light(conditions, sunlit(self.parts, conditions, beyond))
     }
 
-    /// Values of the facets beside those `here`, under other conditions of what `whose` says alone: what
-    /// depends on others is not computed anew.
+    /// Values of the facets near `here`, under conditions that differ only in the part named by `whose`; the
+    /// other parts are not recomputed.
     pub fn shifted(
         &self,
         here: &Predicted<'a>,
@@ -93,7 +92,7 @@ impl<'a> Predictor<'a, '_> {
                 add_product(&mut radiances, &more, &sun.to_channels);
                 here.lens.seen(radiances)
             }
-            // the sun's share is in the radiance
+            // the radiance includes the sun's amount
             Whose::Light => self.in_light(conditions, sun.radiance.clone().into_owned()).values,
             Whose::Scene => self.facets(conditions, beyond).values,
             Whose::Lens => Lens::new(self.parts, conditions, &here.lighting).seen(here.radiances.clone()),
@@ -138,7 +137,7 @@ impl<'a> Predictor<'a, '_> {
     }
 }
 
-/// Sunlight on the facets, of which a sheet that is not Lambertian sends `beyond` more.
+/// Sunlight on the facets, for a sheet whose radiance exceeds that of a Lambertian one by `beyond`.
 fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance {
     let (sun, stated) = (&parts.sun, &parts.stated);
     let (sin, cos) = conditions.tilt_deg.to_radians().sin_cos();
@@ -151,7 +150,7 @@ fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance
     conditions.sun * (radiance + beyond)
 }
 
-/// So much of each of these lights on the facets.
+/// The sum of these lights on the facets, in these amounts.
 fn ambient(conditions: &Conditions, all: &[(&Ambient, f64)], stated_deg: f64) -> Radiance {
     let mut sum = Radiance::zeros(all[0].0.by_angle.nrows(), all[0].0.by_angle.ncols());
     for (light, amount) in all {

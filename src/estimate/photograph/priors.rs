@@ -1,12 +1,11 @@
-//! The priors on photographs: what is known of them before one is looked at.
+//! The priors on photographs.
 
 use crate::estimate::unknowns::{Expectation, Normal};
 
-/// Declares the numbers, each once: a field, its usual value, and a row of the table of all.
+/// Declares each number once: a field, its usual value, and a row in the table of all.
 macro_rules! priors {
     ($($(#[$doc:meta])* $name:ident: $usual:expr,)*) => {
-        /// Every number that the model of a photograph is made of and that is neither physics nor geometry
-        /// nor numerics.
+        /// All numbers in the model of a photograph that belong to neither physics, geometry nor numerics.
         ///
         /// Means and standard deviations of unknowns are on the [scale](crate::estimate::unknowns::Scale) of
         /// each.
@@ -24,9 +23,9 @@ macro_rules! priors {
         }
 
         impl Priors {
-            /// Those about photographs as people take them.
+            /// The priors on usual photographs.
             pub const USUAL: Self = Self { $($name: $usual,)* };
-            /// All of them by name, to be varied.
+            /// All numbers by name, to be varied.
             pub const NUMBERS: &'static [(&'static str, fn(&mut Self) -> &mut f64)] =
                 &[$((stringify!($name), |priors: &mut Self| &mut priors.$name),)*];
         }
@@ -34,151 +33,150 @@ macro_rules! priors {
 }
 
 priors! {
-    /// How far an angle is off that somebody measured, degrees: a protractor, and a sheet that springs back.
-    /// Of one that comes with a standard deviation of its own that counts.
+    /// Standard deviation of a measured angle, degrees: a protractor, and a sheet that springs back. A stated
+    /// standard deviation takes precedence.
     angle_sd_deg: 1.2,
-    /// How far a sheet is turned off the sun that was turned to it with care, degrees.
+    /// Standard deviation of the tilt of a sheet that was turned to the sun with care, degrees.
     tilt_sd_deg: 2.0,
-    /// Logarithm of an exposure that was stated.
+    /// Of the logarithm of a stated exposure.
     exposure_stated_sd: 0.02,
-    /// Of one by a chart or a card, which is uneven, not quite where the sheet is, nor turned as it was said
-    /// to be.
+    /// The same by a chart or a card, which is uneven, and not exactly in the place and orientation of the
+    /// sheet.
     exposure_shown_sd: 0.04,
-    /// Of one that nobody states: people expose so that white that faces the sun lies within a third and
-    /// three times the white level of the picture in nineteen cases of twenty.
+    /// The same if not stated: nineteen of twenty photographs are exposed so that white facing the sun lies
+    /// between a third and three times the picture's white level.
     exposure_sd: 0.55,
-    /// Of one that the camera's settings and the height of the sun tell: a round number, measured on no
-    /// camera; ISO 12232 lets makers state several kinds of sensitivity, and apertures and lenses are not
-    /// quite what they are called.
+    /// The same from the camera's settings and the height of the sun: a round number, measured on no camera.
+    /// ISO 12232 lets makers state several kinds of sensitivity, and apertures and lenses deviate from their
+    /// nominal values.
     exposure_metered_sd: 0.3,
-    /// How heavy the tails are of what was stated, now and then by mistake; 0: those of a normal number.
+    /// Heaviness of the tails for stated values, which now and then are blunders; 0: normal.
     stated_tail: 0.5,
 
-    /// The reciprocal colour temperature of direct sunlight, 1e-6/K, whatever kind of daylight was said: 5000
-    /// K to 5800 K.
+    /// Reciprocal colour temperature of direct sunlight, 1e-6/K, whatever daylight was stated: 5000 K to
+    /// 5800 K.
     sun_mired: 187.0,
-    /// As much as a tenth more or less aerosol (optical depth at 500 nm) makes of it.
+    /// Standard deviation: the effect of a tenth more or less aerosol (optical depth at 500 nm).
     sun_mired_sd: 7.0,
-    /// Logarithm of the gain of the first and the last channel: cameras of one model differ by 2 %.
+    /// Logarithm of the gains of the first and the last channel: cameras of one model differ by 2 %.
     gain_sd: 0.015,
-    /// By how much two laboratories differ that measure the same model of a camera, relative to the highest
-    /// point of a curve.
+    /// Difference between measurements of one camera model by two laboratories, relative to the peak of a
+    /// sensitivity.
     sensitivity_sd: 0.02,
-    /// Over so many nanometres they are off alike.
+    /// Range over which such errors are alike, nm.
     sensitivity_step_nm: 40.0,
 
-    /// How widely the [amounts](Priors::amount) vary of what an ideal fold does not have.
+    /// Spread of the [amounts](Priors::amount) of effects that an ideal fold lacks.
     amount_sd: 1.0,
-    /// How heavy the tails are of these amounts: an otherwise careful photograph may have much of one.
+    /// Heaviness of the tails of these amounts: an otherwise careful photograph may have much of one.
     amount_tail: 1.0,
-    /// Irradiance by the sky of an open horizontal plane, direct sun being 1: what a clear one gives.
+    /// Irradiance from a clear sky on an open horizontal plane, relative to direct sun.
     sky: 0.12,
     /// The same in haze or under thin cloud: a third to two thirds of the light is diffuse.
     hazy_sky: 0.6,
-    /// Amount of light from a sky that is alike in all directions, in a computed scene of which nobody stated
-    /// it.
+    /// Amount of uniform skylight in a computed scene for which none was stated.
     even_sky: 0.4,
-    /// How far these are off, as a part of them.
+    /// Standard deviation of skylight, as a share of it.
     sky_sd: 0.5,
-    /// How far one is off that was stated, likewise.
+    /// The same if it was stated.
     sky_stated_sd: 0.25,
-    /// How many photographs are taken in haze or under thin cloud; as many on an overcast day, and half as
-    /// many in the shade.
+    /// Share of photographs taken in haze or under thin cloud; as many on an overcast day, and half as many
+    /// in the shade.
     dull_share: 0.1,
-    /// Light on a sheet that faces the open sky where the sun is hidden, that of the sun on one that faces it
-    /// being 1: 0.1 to 0.3.
+    /// Light on a sheet facing the open sky with the sun hidden, relative to that of the sun on one facing
+    /// it: 0.1 to 0.3.
     hidden_light: 0.17,
-    /// Logarithm of that.
+    /// Standard deviation of its logarithm.
     hidden_light_sd: 0.5,
-    /// Reciprocal colour temperature of a blue sky, 1e-6/K: 9500 K, two of three between 8000 K and 11800 K.
+    /// Reciprocal colour temperature of a blue sky, 1e-6/K: 9500 K, two in three between 8000 K and 11800 K.
     sky_mired: 105.0,
     /// See `sky_mired`.
     sky_mired_sd: 20.0,
     /// Reciprocal colour temperature of a sky that is not clear, 1e-6/K.
     cloud_mired: 156.0,
-    /// In haze: thin cloud has the sun's colour, haze is bluer, 5600 K to 7700 K. Widened with a picture of
-    /// `../shared/faults` in view.
+    /// Standard deviation in haze: thin cloud has the sun's colour, haze is bluer, 5600 K to 7700 K. Widened
+    /// with a picture of `../shared/faults` in view.
     hazy_mired_sd: 25.0,
-    /// On an overcast day: 5800 K to 7000 K.
+    /// Standard deviation on an overcast day: 5800 K to 7000 K.
     overcast_mired_sd: 9.0,
-    /// Share of a hazy sky's light that is an overcast sky's, and the standard deviation of it.
+    /// Share of a hazy sky's light with the distribution of an overcast sky, and its standard deviation.
     hazy_cloud: 0.3,
-    /// Amount of sunlight that comes through clouds or past what throws a shadow: irradiance of a plane that
-    /// faces the sun, that of an open horizontal plane by the sky being 1.
+    /// Amount of sunlight that passes clouds or an object casting a shadow: irradiance of a plane facing the
+    /// sun, relative to the sky's on an open horizontal plane.
     hidden_sun: 0.025,
-    /// How far above the horizon the fold opens, degrees: towards the sun, towards the photographer, or
-    /// upwards on a table.
+    /// Elevation of the direction in which the fold opens, degrees: towards the sun, towards the
+    /// photographer, or upwards on a table.
     elevation_deg: 45.0,
     /// See `elevation_deg`.
     elevation_sd_deg: 14.0,
-    /// Amount of light that the ground reflects: a table, grass, sand have 0.1 to 0.4.
+    /// Reflectance of the ground: a table, grass or sand has 0.1 to 0.4.
     ground: 0.115,
-    /// Rise of the ground's reflectance to 700 nm: earth and wood are brown, they reflect half as much again
+    /// Rise of the ground's reflectance to 700 nm: earth and wood are brown, and reflect half as much again
     /// in the red.
     ground_redness: 0.4,
     /// See `ground_redness`.
     ground_redness_sd: 0.3,
-    /// Radius of the crease, in depths of a panel: folded sheets have 0 to 3 %.
+    /// Radius of the crease, in panel depths: folded sheets have 0 to 3 %.
     crease_radius: 0.006,
-    /// Bow of both panels, degrees: sheets that are held at their edges turn by a few.
+    /// Bow of both panels, degrees: sheets held at their edges turn by a few.
     bow_sd_deg: 1.5,
-    /// Bow of one panel beside the other, degrees: those of one sheet bow much alike.
+    /// Difference in bow between the panels, degrees: those of one sheet bow similarly.
     bow_difference_sd_deg: 0.7,
-    /// Share of light that the lens loses in the corners: 0 to 30 %.
+    /// Share of light lost by the lens in the corners: 0 to 30 %.
     vignetting: 0.12,
-    /// Share of light that the lens spreads over the picture: 0 to 2 %.
+    /// Share of light spread over the picture by the lens: 0 to 2 %.
     veiling_glare: 0.006,
-    /// Strength of the surface's reflection: matte papers and paints have up to a bare surface of it.
+    /// Specular weight: matte papers and paints have up to that of a bare surface.
     specular_weight: 0.16,
-    /// Logarithm of the roughness of the surface: matte ones have 0.3 to 0.6.
+    /// Logarithm of the specular roughness: matte surfaces have 0.3 to 0.6.
     ln_specular_roughness: -0.85,
     /// See `ln_specular_roughness`.
     ln_specular_roughness_sd: 0.18,
-    /// Roughness of the body, degrees: paper and paint have 0 to 20.
+    /// Body roughness, degrees: paper and paint have 0 to 20.
     body_roughness_deg: 10.5,
-    /// Fibres: paper and paint have next to none, cloth some, felt up to 1.
+    /// Sheen: paper and paint have almost none, cloth some, felt up to 1.
     sheen: 0.1,
 
-    /// How many sheets are perfectly matt, or nearly so; of the others half are of the family, half like
-    /// those that were measured.
+    /// Share of sheets that are perfectly matte, or nearly so; half of the others are described by the
+    /// formula, half are like the measured ones.
     matt_share: 0.05,
-    /// How far a sheet is from the mean of those that were measured, in standard deviations of these: more
-    /// than one, as they are few.
+    /// Distance of a sheet from the mean of the measured ones, in their standard deviations: more than one,
+    /// as they are few.
     measured_variation: 2.2,
-    /// How far sheets that a formula describes vary beyond its numbers, in the same unit.
+    /// Variation of sheets described by the formula beyond its parameters, in the same unit.
     formula_variation: 0.3,
 
-    /// What no unknown explains, relative to predicted values, in all channels alike. Where its sizes come
-    /// from: docs/model.md.
+    /// The model error, relative to predicted values, common to all channels. For the origin of its sizes see
+    /// docs/model.md.
     discrepancy_shared: 0.01,
-    /// As much more where all light is the sky's: root mean square of what the types 1, 3 and 5 of overcast
-    /// skies leave within panels (`benches/skies.rs`).
+    /// Addition if all light is the sky's: root mean square differences of overcast skies of types 1, 3 and 5
+    /// within panels (`benches/skies.rs`).
     discrepancy_sky: 0.016,
-    /// Panel 0 beside panel 1, likewise: what all six types leave between panels, of which half are brighter
-    /// about the hidden sun.
+    /// The same between panels 0 and 1: differences of all six types, half of them brighter around the
+    /// hidden sun.
     discrepancy_sky_aside: 0.07,
     /// In each channel by itself.
     discrepancy_own: 0.006,
     /// In each facet by itself.
     discrepancy_white: 0.008,
-    /// In the facets at the crease, which is not as sharp, nor as round, as the model has it.
+    /// In the facets at the crease, which is not as sharp, or as round, as in the model.
     discrepancy_at_crease: 0.05,
-    /// In those at the outer sides: an edge is not straight, nor sharp, so that some of the background is
-    /// taken for the sheet.
+    /// In the facets at the outer sides: an edge is not straight or sharp, so that some background counts as
+    /// sheet.
     discrepancy_at_outer_side: 0.047,
-    /// How far a corner is from where it is marked, in depths of a panel.
+    /// Displacement of a corner from its mark, in panel depths.
     corner: 0.0125,
-    /// Length over which the discrepancy is correlated, in depths of a panel.
+    /// Correlation length of the model error, in panel depths.
     discrepancy_length: 0.8,
 
-    /// How many photographs are of an ideal fold in a scene exactly as stated: computed ones.
+    /// Share of photographs of an ideal fold in a scene exactly as stated: computed ones.
     ideal_share: 0.04,
-    /// How many stated numbers are mistaken.
+    /// Share of stated numbers that are mistaken.
     mistake_share: 0.05,
-    /// How many photographs are of no fold, in each of two ways.
+    /// Share of photographs that show no fold, for each of two hypotheses.
     no_fold_share: 0.01,
-    /// Power of the shares that classes of spectra have of all spectra: people fold paper and cloth more
-    /// often than painted chips, of which most is known.
+    /// Tempering of the class probabilities, a power: people fold paper and cloth more often than painted
+    /// chips, which dominate the known spectra.
     class_share_power: 0.45,
 }
 
@@ -186,20 +184,20 @@ priors! {
 const ONE: f64 = 0.541_324_854_612_918;
 
 impl Priors {
-    /// Logarithm of an exposure that nobody states.
+    /// Logarithm of an unstated exposure.
     #[must_use]
     pub const fn exposure(&self) -> Normal {
         Normal { mean: 0.0, sd: self.exposure_sd }
     }
 
-    /// How uneven the sun's light is over the panels: by a quarter of what no unknown explains.
+    /// Unevenness of sunlight over the panels: a quarter of the shared model error.
     #[must_use]
     pub const fn unevenness(&self) -> Normal {
         Normal { mean: 0.0, sd: 0.25 * self.discrepancy_shared }
     }
 
-    /// What is known of something that an ideal fold does not have, of which half of all photographs have
-    /// less than `amount`: some next to nothing, a few several times as much.
+    /// Prior of an effect that an ideal fold lacks and that is below `amount` in half of all photographs: in
+    /// some almost absent, in a few several times as large.
     #[must_use]
     pub const fn amount(&self, amount: f64) -> Expectation {
         Expectation { unit: amount, normal: Normal { mean: ONE, sd: self.amount_sd } }

@@ -1,5 +1,5 @@
-//! The most probable spectrum under all that photographs of a sheet may be: as people take them, of each kind
-//! of sheet, or of an ideal fold.
+//! The most probable spectrum under all hypotheses on photographs of a sheet: usual ones with each sheet
+//! model, or an ideal fold.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -24,26 +24,23 @@ use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
 use crate::solve::posterior::{Iteration, Model};
 
-/// Ideal folds that come so near to the best of real sheets, as the logarithm of a share of its evidence, are
-/// weighed against these anew.
+/// Log evidence relative to the best above which folds count, and above which ideal folds are weighed again
+/// against real sheets.
 const LN_EVIDENCE_NEAR: f64 = -5.0;
 
-/// Hypotheses that are further behind the best, likewise, are out of the question, and not searched to their
-/// end.
+/// Hypotheses whose log evidence is further below the best are hopeless, and their searches are abandoned.
 const LN_EVIDENCE_HOPELESS: f64 = -20.0;
-/// Behind the best by that on a dull day, the kind of sheet that has most evidence on a clear one leaves no
-/// hope for the others.
+/// If the best sheet model of a clear day is this far behind on a dull day, the other models have no chance.
 const LN_EVIDENCE_FAR: f64 = -8.0;
 
 type Tried = Sorted<Hypothesis, ()>;
 
-/// A sheet as its photographs show it.
+/// A sheet as inferred from its photographs.
 pub struct SheetEstimate {
-    /// One estimate for each photograph: spectrum and error bars are the same in all, the rest is the
-    /// photograph's own.
+    /// One estimate per photograph: spectrum and error bars are common to all, the rest is individual.
     pub photographs: Vec<Estimate>,
-    /// Logarithm of the probability of all facets under what is known of sheets and scenes, but for a term
-    /// that depends on each photograph alone: the difference between one sheet and several tells which it is.
+    /// Log evidence of all facets, up to a term that depends on each photograph alone: the difference between
+    /// one sheet and several decides between the two.
     pub ln_evidence: f64,
 }
 
@@ -56,11 +53,11 @@ pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     under(parts, prior, (hypotheses, dull_days)).ok_or_else(not_finite)
 }
 
-/// The estimate from photographs that are as people take them, however ideal their facets are, as those of
-/// photographs that are only planned.
+/// The estimate from photographs assumed to be usual ones, however ideal their facets, as those of planned
+/// photographs are.
 ///
 /// # Errors
-/// As [`estimate`]; [`Error::Field`] where it was stated that there is no sun, which these have.
+/// As [`estimate`]; [`Error::Field`] if the stated scene has no sun, which is required here.
 pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     if parts.iter().any(|one| one.stated.sun <= 0.0) {
         let problem = "photographs are joined and planned in the sun alone; \
@@ -84,7 +81,7 @@ fn under(
     if let [only] = family.0.as_slice() {
         add_emitting(&mut search, (&family, only), &mut sorted);
     }
-    // no light bounces between panels that are no fold
+    // without a fold, no light bounces between panels
     let without_bounces = probability(&sorted, |one| !one.has_bounces());
     let folds = folds(sorted);
     let day = day(&folds, &family.0);
@@ -103,8 +100,8 @@ fn under(
     })
 }
 
-/// Photographs with errors relative to the values that a model predicts, not to those that were measured; and
-/// where that is.
+/// Photographs with errors relative to predicted values rather than to measured ones, and the point of the
+/// prediction.
 fn relative_to_predictions<'a>(
     family: Photographs<'a>,
     prior: &Prior,
@@ -124,9 +121,9 @@ fn relative_to_predictions<'a>(
     Some((Photographs(family.0.into_iter().zip(predicted).map(relative).collect()), found.solution.w))
 }
 
-/// Hypotheses with their evidence under all spectra, the first from `start`, each other from where the
-/// nearest before led, those of most evidence first. On each dull day the kind of sheet that has most
-/// evidence on a clear one comes first: if that is far behind, so are the others.
+/// Hypotheses in order of evidence under all spectra. The first is started from `start`, each other from the
+/// result of the most similar one before. On each dull day the best sheet model of a clear day comes first:
+/// if it is far behind, so are the others.
 fn sorted(
     search: &mut Search<Photographs>,
     stated: &StatedScene,
@@ -153,15 +150,15 @@ fn sorted(
     all
 }
 
-/// Adds a hypothesis to those that are sorted, from `first` if it is the first; by how much it is behind the
-/// best, as the logarithm of a share of its evidence.
+/// Adds a hypothesis to the sorted ones, starting from `first` if it is the first; returns its log evidence
+/// relative to the best.
 fn sort(
     search: &mut Search<Photographs>,
     stated: &StatedScene,
     (hypothesis, first): (Hypothesis, &DVector<f64>),
     all: &mut Vec<Tried>,
 ) -> f64 {
-    // a spectrum without bounces is none of a fold's
+    // a spectrum found without bounces is no start for a fold
     let nearest = all.iter().filter(|one| one.hypothesis.has_bounces()).min_by(|a, b| {
         let [of_a, of_b] = [a, b].map(|one| one.hypothesis.differences(&hypothesis));
         of_a.cmp(&of_b).then(b.ln_weight().total_cmp(&a.ln_weight()))
@@ -177,9 +174,9 @@ fn sort(
     behind
 }
 
-/// Weighs real sheets against ideal ones of some evidence with as much left unexplained as has more evidence:
-/// of a picture taken with care the usual discrepancy says too little to tell them apart. The estimates under
-/// them keep it, as residuals show only what unknowns do not take up.
+/// Weighs real sheets against ideal folds of some evidence, with the size of the model error that has most
+/// evidence: for a picture taken with care the usual size does not distinguish the two. The estimates of real
+/// sheets keep the usual size, as residuals show only what the unknowns do not absorb.
 fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     let ln_most = |is_ideal: bool| {
         let of = all.iter().filter(|one| one.hypothesis.imperfection.is_ideal() == is_ideal);
@@ -249,7 +246,7 @@ fn add_emitting(
     Some(())
 }
 
-/// What the sheet of a photograph is found to send out itself, if it probably does.
+/// The emission of the sheet of a photograph, if it probably has any.
 fn fluorescence(photograph: &Photograph, found: &Mixture<Hypothesis, ()>) -> Option<Fluorescence> {
     let origin = |hypothesis: &Hypothesis| photograph.emissions().get(hypothesis.emission?)?.origin();
     let shares = found.shares.iter().map(|(hypothesis, share)| (origin(hypothesis), *share));
@@ -258,7 +255,7 @@ fn fluorescence(photograph: &Photograph, found: &Mixture<Hypothesis, ()>) -> Opt
     fluorescence_search::found(shares, (&found.values, found.spread.as_ref()), nothing, first)
 }
 
-/// Probability of hypotheses, of which those of most evidence come first.
+/// Probability of some hypotheses among `all`, sorted by weight, the largest first.
 fn probability(all: &[Tried], of: impl Fn(&Hypothesis) -> bool) -> f64 {
     let ln_most = all.first().map_or(0.0, Tried::ln_weight);
     let weight = |one: &Tried| (one.ln_weight() - ln_most).exp();
@@ -266,8 +263,7 @@ fn probability(all: &[Tried], of: impl Fn(&Hypothesis) -> bool) -> f64 {
     those.map(weight).sum::<f64>() / all.iter().map(weight).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
-/// The most probable kind of day, folds being those of which most evidence comes first; none if the light is
-/// no daylight.
+/// The most probable kind of day, given folds in order of evidence; `None` if the light is not daylight.
 fn day(folds: &[Tried], photographs: &[Photograph]) -> Option<DayEstimate> {
     photographs.iter().all(|one| one.parts.stated.daylight.is_some()).then_some(())?;
     let found =
@@ -275,7 +271,7 @@ fn day(folds: &[Tried], photographs: &[Photograph]) -> Option<DayEstimate> {
     found.into_iter().max_by(|a, b| a.probability.total_cmp(&b.probability))
 }
 
-/// Folds, all but those that the evidence is against.
+/// The folds, except those ruled out by the evidence.
 fn folds(all: Vec<Tried>) -> Vec<Tried> {
     let mut folds: Vec<_> = all.into_iter().filter(|one| one.hypothesis.has_bounces()).collect();
     let least = folds.first().map_or(0.0, |first| first.ln_weight() + LN_EVIDENCE_NEAR);
@@ -283,7 +279,8 @@ fn folds(all: Vec<Tried>) -> Vec<Tried> {
     folds
 }
 
-/// What of a photograph is not ideal: unknowns of its scene, and corners that are not where they were marked.
+/// Deviations of a photograph from the ideal: unknowns of its scene, and corners that are not where they were
+/// marked.
 fn all_findings(
     Photograph { parts, .. }: &Photograph,
     found: &Mixture<Hypothesis, ()>,
@@ -304,7 +301,7 @@ fn all_findings(
     findings
 }
 
-/// What the facets do not speak of.
+/// Quantities about which the facets say nothing.
 fn skipped(fitted: &[Fitted], searches: usize) -> Vec<Skipped> {
     let assumed = fitted.iter().filter(|one| !one.supported).count();
     let all = [
@@ -319,11 +316,11 @@ fn skipped(fitted: &[Fitted], searches: usize) -> Vec<Skipped> {
     all.map(of).into_iter().filter(|one| one.count > 0).collect()
 }
 
-/// The mean of all maxima as the estimate of a photograph.
+/// The mean of all modes as the estimate of a photograph.
 fn of_photograph(found: &Mixture<Hypothesis, ()>, seen: Seen, trace: &[Vec<Iteration>]) -> Estimate {
     let bands = found.values.len() / 3;
     let is_ideal = found.best.start.hypothesis.imperfection.is_ideal();
-    // shares may add up to a rounding more than 1
+    // weights may add up to slightly more than 1 by rounding
     let within = |values: &[f64]| values.iter().map(|value| value.min(1.0)).collect::<Vec<_>>();
     let (reflectance, albedo) = found.values[..2 * bands].split_at(bands);
     Estimate {

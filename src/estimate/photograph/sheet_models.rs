@@ -1,4 +1,4 @@
-//! Kinds of sheets as photographs of one of them show it.
+//! Sheet models as they appear in photographs of one sheet.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,40 +9,40 @@ use super::sheets::{Departure, FAMILY_NODES, FamilyNodes, SHEEN, Sheets};
 use crate::estimate::unknowns::Unknown;
 use crate::solve::Eigen;
 
-/// Numbers by which measured sheets vary.
+/// Number of principal components of measured sheets.
 const VARIATIONS: usize = 8;
-/// Least radiance that departures are compared with: what is added to the brightness of the facets.
+/// Radiance added to the brightness of the facets in comparisons of departures.
 const FLOOR: f64 = 0.05;
-/// A sheet that departs from a Lambertian one by more than that in the mean, relative to the brightness of
-/// the facets, is taken to depart by that: measured far from grazing directions, it is not known there.
+/// Limit on a sheet's mean departure from a Lambertian one, relative to the brightness of the facets. Larger
+/// departures are scaled down to it: the sheets were measured far from grazing directions.
 const MOST: f64 = 0.6;
 
-/// The kind that a sheet is taken to be.
+/// The assumed sheet model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SheetModel {
-    /// Perfectly matt, or nearly so.
+    /// Perfectly matte, or nearly so.
     Matt,
-    /// A family: its numbers are among the conditions.
+    /// A formula, whose parameters are among the conditions.
     Family,
-    /// Like those that were measured.
+    /// Like the measured sheets.
     Measured,
 }
 
-/// The kinds that are known, as one photograph shows them.
+/// The known sheet models, as they appear in one photograph.
 pub struct SheetModels<'a> {
     priors: &'a Priors,
     sheets: &'a Sheets,
     /// The mean of measured sheets.
     measured: Departure,
-    /// How measured sheets differ, in units of a standard deviation: differences of departures.
+    /// Principal components of measured sheets, scaled to a standard deviation: differences of departures.
     variations: Vec<Departure>,
 }
 
 impl SheetModel {
-    /// All of them.
+    /// All models.
     pub const ALL: [Self; 3] = [Self::Matt, Self::Family, Self::Measured];
 
-    /// Logarithm of how many sheets are of the kind.
+    /// Logarithm of the prior probability of the model.
     #[must_use]
     pub fn ln_share(self, priors: &Priors) -> f64 {
         let share = match self {
@@ -52,7 +52,7 @@ impl SheetModel {
         share.ln()
     }
 
-    /// Standard deviation of its variations, that of measured sheets from their mean being 1.
+    /// Standard deviation of its variations, relative to that of measured sheets about their mean.
     fn variation(self, priors: &Priors) -> f64 {
         match self {
             Self::Measured => priors.measured_variation,
@@ -60,8 +60,7 @@ impl SheetModel {
         }
     }
 
-    /// Whether an unknown makes a difference to sheets of this kind: the numbers of a family make none to
-    /// others.
+    /// True if an unknown affects sheets of this model: only the formula has parameters.
     #[must_use]
     pub fn has(self, unknown: &Unknown) -> bool {
         match self {
@@ -72,7 +71,7 @@ impl SheetModel {
 }
 
 impl<'a> SheetModels<'a> {
-    /// Those of photographs of one sheet: measured sheets vary in the same ways in all of them.
+    /// For photographs of one sheet: the principal components of measured sheets are common to all of them.
     #[must_use]
     pub fn of(photographs: &'a [Parts]) -> Vec<Self> {
         let bounded = bounded(photographs);
@@ -89,21 +88,20 @@ impl<'a> SheetModels<'a> {
         photographs.iter().zip(&bounded).map(of).collect()
     }
 
-    /// Numbers by which sheets of a kind vary: those of which the facets speak, then what an instrument says
-    /// beyond them.
+    /// Number of variations of a sheet model: those visible in the facets, then the error of an instrument.
     #[must_use]
     pub fn variation_count(&self) -> usize {
         self.variations.len() + 1
     }
 
-    /// What facets have more, at the nodes of albedo, for each of the variations of which they speak, in a
-    /// photograph so far from an ideal one.
+    /// Change of the facets, at the albedo nodes, for each of the visible variations, in a photograph whose
+    /// imperfection has this scale.
     pub fn by_variation(&self, kind: SheetModel, scale: f64) -> impl Iterator<Item = Radiance> + '_ {
         self.variations.iter().map(move |own| scale * kind.variation(self.priors) * &own.radiance)
     }
 
-    /// How a sheet of a kind departs from a Lambertian one, its variations having these sizes, in a
-    /// photograph so far from an ideal one.
+    /// Departure of a sheet from a Lambertian one for these sizes of its variations, in a photograph whose
+    /// imperfection has this scale.
     #[must_use]
     pub fn departure(
         &self,
@@ -120,7 +118,7 @@ impl<'a> SheetModels<'a> {
                     scale * self.sheets.instrument.shared * variations.last().copied().unwrap_or(0.0);
                 mean
             }
-            // of these two the formula tells what an instrument says
+            // for these two the formula gives the instrument's reading
             SheetModel::Matt => Departure::none(&self.measured.radiance),
             SheetModel::Family => self.family(conditions),
         };
@@ -149,14 +147,14 @@ impl<'a> SheetModels<'a> {
     }
 }
 
-/// The sum of departures, each times its share.
+/// The sum of departures, weighted by `shares`.
 fn sum(all: &[Departure], shares: &[f64]) -> Departure {
     let mut sum = all[0].less(&all[0]);
     all.iter().zip(shares).for_each(|(one, share)| sum.add(*share, one, [0.0; 2]));
     sum
 }
 
-/// Measured sheets in each photograph, none of which departs too far in any.
+/// Measured sheets in each photograph, scaled so that none departs too far in any of them.
 fn bounded(photographs: &[Parts]) -> Vec<Vec<Departure>> {
     let count = photographs.first().map_or(0, |parts| parts.sheets.measured.len());
     let share = |sheet: usize| {
@@ -183,12 +181,11 @@ fn relative(departure: &Departure, lambertian: &Radiance) -> DVector<f64> {
     DVector::from_iterator(relative.len(), relative.iter().copied())
 }
 
-/// The directions in which measured sheets differ most, in units of a standard deviation: shares of each
-/// sheet, which add up to nothing.
+/// Principal components of measured sheets, scaled to a standard deviation: weights of each sheet, which add
+/// up to zero.
 ///
 /// # Source
-/// Principal components: Bishop, *Pattern Recognition and Machine Learning* (2006), section 12.1.4 (fewer
-/// points than dimensions).
+/// Bishop, *Pattern Recognition and Machine Learning* (2006), section 12.1.4 (fewer points than dimensions).
 fn principal_components(photographs: &[Parts], measured: &[Vec<Departure>]) -> Vec<Vec<f64>> {
     let columns = |(parts, measured): (&Parts, &Vec<Departure>)| {
         DMatrix::from_columns(&measured.iter().map(|one| relative(one, &parts.sun.even)).collect::<Vec<_>>())

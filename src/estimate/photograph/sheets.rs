@@ -1,25 +1,24 @@
-//! What is known of how sheets reflect: how one that is not Lambertian departs from one that is, of the same
-//! albedo.
+//! Known reflection of sheets: departures of non-Lambertian sheets from a Lambertian one of the same albedo.
 
 use super::sums::{Radiance, add};
 
-/// How a sheet departs from a Lambertian one.
+/// Departure of a sheet from a Lambertian one.
 #[derive(Clone, Debug)]
 pub struct Departure {
-    /// What its facets have more, at the nodes of albedo.
+    /// Additional radiance of its facets, at the albedo nodes.
     pub radiance: Radiance,
-    /// Its 45:0 reflectance is the first times its albedo, plus the second.
+    /// Its 45:0 reflectance is the first number times its albedo, plus the second.
     pub reflectance: [f64; 2],
 }
 
 impl Departure {
-    /// That of a Lambertian sheet.
+    /// The departure of a Lambertian sheet itself.
     #[must_use]
     pub fn none(like: &Radiance) -> Self {
         Self { radiance: Radiance::zeros(like.nrows(), like.ncols()), reflectance: [1.0, 0.0] }
     }
 
-    /// What it has more than another.
+    /// Its difference from another.
     #[must_use]
     pub fn less(&self, other: &Self) -> Self {
         let mut difference = self.clone();
@@ -27,7 +26,7 @@ impl Departure {
         difference
     }
 
-    /// Adds a share of another, the reflectance of which counts from `reference`.
+    /// Adds a multiple of another, whose reflectance counts relative to `reference`.
     pub fn add(&mut self, share: f64, other: &Self, reference: [f64; 2]) {
         if share != 0.0 {
             add(self.radiance.as_mut_slice(), share, other.radiance.as_slice());
@@ -39,46 +38,46 @@ impl Departure {
     }
 }
 
-/// Where a grid of families is known: strength and roughness of the surface, roughness of the body.
+/// Nodes of the grid of formula parameters: specular weight and roughness, body roughness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FamilyNodes {
-    /// Strengths of the surface's reflection, the first of them 0.
+    /// Specular weights, the first of which is 0.
     pub specular_weight: [f64; 3],
-    /// Its roughnesses.
+    /// Specular roughnesses.
     pub specular_roughness: [f64; 3],
-    /// Roughnesses of the body, degrees.
+    /// Body roughnesses, degrees.
     pub body_roughness_deg: [f64; 3],
 }
 
-/// The nodes that are used.
+/// The nodes used.
 pub const FAMILY_NODES: FamilyNodes = FamilyNodes {
     specular_weight: [0.0, 0.4, 1.0],
     specular_roughness: [0.28, 0.42, 0.65],
     body_roughness_deg: [0.0, 12.0, 25.0],
 };
 
-/// Sizes of sheen at which it is known, on the family in the middle of [`FAMILY_NODES`].
+/// Values of sheen for which it is tabulated, with the middle of [`FAMILY_NODES`].
 pub const SHEEN: [f64; 2] = [0.4, 1.0];
-/// What is known of how sheets reflect.
+/// Known reflection of sheets.
 #[derive(Clone, Debug)]
 pub struct Sheets {
-    /// Sheets with a body of Oren and Nayar's and a surface of microfacets, over [`FAMILY_NODES`]: strength,
-    /// roughness of the surface, roughness of the body, the last fastest.
+    /// Sheets with an Oren-Nayar body and a microfacet surface, over [`FAMILY_NODES`]: specular weight,
+    /// specular roughness, body roughness, the last varying fastest.
     pub families: Vec<Departure>,
-    /// What [`SHEEN`] changes.
+    /// Changes by [`SHEEN`].
     pub sheen: [Departure; 2],
-    /// Sheets that were measured, each.
+    /// The measured sheets.
     pub measured: Vec<Departure>,
-    /// What facets do not tell of measured sheets.
+    /// Properties of measured sheets that facets do not reveal.
     pub instrument: Instrument,
 }
 
-/// By how much more or less an instrument of 45:0 says of a sheet than sheets that send the same to the
-/// camera: standard deviations relative to the albedo.
+/// Differences in the 45:0 reading of an instrument between sheets that look the same to the camera: standard
+/// deviations relative to the albedo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instrument {
-    /// In all wavebands alike.
+    /// Common to all wavebands.
     pub shared: f64,
-    /// In each waveband for itself, smooth over the wavelengths.
+    /// In each waveband by itself, smooth over the wavelengths.
     pub own: f64,
 }

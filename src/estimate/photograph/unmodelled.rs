@@ -1,8 +1,8 @@
-//! Folds of which sheets that are not ideal are not modelled.
+//! Folds for which only ideal sheets are modelled.
 
 use std::fmt;
 
-/// Why a sheet is taken for an ideal one.
+/// Why a sheet is assumed to be ideal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unmodelled {
     /// A panel is a card.
@@ -11,9 +11,9 @@ pub enum Unmodelled {
     UnequalPanels,
     /// There is more than one picture of the sheet.
     SeveralLights,
-    /// Lamps light it, or several suns, or one that leaves a panel in the shade.
+    /// It is lit by lamps, by several suns, or by one that leaves a panel in shade.
     OtherLight,
-    /// The corners are not given, or no camera sees the panels so.
+    /// The corners are missing, or no camera position explains them.
     NoPose,
     /// No facet has any light.
     NoFacets,

@@ -1,4 +1,4 @@
-//! A photograph with what makes its residuals standard normal.
+//! A photograph with the whitening of its residuals.
 
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -12,23 +12,22 @@ use super::parts::Parts;
 use super::sheet_models::SheetModels;
 use crate::estimate::emission::Emission;
 
-/// A photograph with what does not depend on the class of spectra.
+/// A photograph with everything that does not depend on the class of spectra.
 pub struct Photograph<'a> {
-    /// What it is made of.
+    /// Its ingredients.
     pub parts: &'a Parts,
-    /// The kinds of sheets as it shows them.
+    /// The sheet models as they appear in it.
     pub sheet_models: Rc<SheetModels<'a>>,
-    /// The values that errors are relative to.
+    /// The values to which errors are relative.
     values: DMatrix<f64>,
-    /// What makes residuals standard normal with each discrepancy on each kind of day, made when it is first
-    /// asked for.
+    /// Whitening of the residuals for each size of model error on each kind of day, computed on first use.
     whitenings: Rc<[[OnceCell<Option<Whitening>>; Day::ALL.len()]; 4]>,
-    /// What its sheet may send out itself, made when it is first asked for.
+    /// Possible emissions of its sheet, computed on first use.
     emissions: OnceCell<Vec<Emission>>,
 }
 
-/// Errors are relative to no less than that share of a channel's brightest value: what is darker is no part
-/// of a fold in the sun.
+/// Lower bound of the values to which errors are relative, as a share of a channel's brightest value: nothing
+/// darker belongs to a fold in the sun.
 const DARKEST: f64 = 0.1;
 
 impl<'a> Photograph<'a> {
@@ -54,7 +53,7 @@ impl<'a> Photograph<'a> {
         Self { values, whitenings: Rc::default(), ..self }
     }
 
-    /// The same photograph taken to be in the light of other parts, which are the same otherwise.
+    /// The same photograph assumed to be in the light of other parts, which are otherwise the same.
     #[must_use]
     pub fn in_light_of(&self, parts: &'a Parts) -> Self {
         let Self { sheet_models, values, whitenings, .. } = self;
@@ -62,16 +61,15 @@ impl<'a> Photograph<'a> {
         Self { parts, sheet_models, values: values.clone(), whitenings, emissions: OnceCell::new() }
     }
 
-    /// What its sheet may send out itself in the light that was stated, nothing first.
+    /// Possible emissions of its sheet in the stated light, the first of which is none.
     pub fn emissions(&self) -> &[Emission] {
         let Parts { eye, stated, .. } = self.parts;
         self.emissions.get_or_init(|| Emission::all(&eye.wavelengths_nm, eye.sun.as_slice(), stated.backing))
     }
 
-    /// What makes residuals standard normal; none if facets are not finite.
+    /// The whitening of the residuals; `None` if facets are not finite.
     pub fn whitening(&self, discrepancy: Discrepancy, day: Day) -> Option<&Whitening> {
-        // where nothing is left unexplained the day makes no difference, nor does it matter what hides the
-        // sun
+        // without a model error the day makes no difference, and it never matters what hides the sun
         let day = match day {
             _ if discrepancy == Discrepancy::None => Day::Clear,
             Day::Shade => Day::Overcast,

@@ -1,4 +1,4 @@
-//! How far the fold is open.
+//! The opening angle of the fold.
 
 use super::{
     Effect, Expectation, Factor, Fitted, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State,
@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::estimate::photograph::StatedScene;
 use crate::kernel::mesh::respond;
 
-/// Angle between the panels, degrees. It takes two more solutions of the bounces.
+/// Angle between the panels, degrees. It takes two more solutions of the interreflections.
 pub static ANGLE: Unknown = Unknown {
     name: "angle_deg",
     description: "Angle between the panels",
@@ -33,8 +33,9 @@ pub static ANGLE: Unknown = Unknown {
     }),
 };
 
-/// Standard deviation of an angle, degrees, or a tenth of it if that is less: what a protractor and a sheet
-/// that springs back leave. The light of a fold is interpolated between folds that far apart.
+/// Standard deviation of an angle, degrees, or a tenth of the angle if that is less: the error of a
+/// protractor and of a sheet that springs back. It is also the spacing of the folds between which light is
+/// interpolated.
 const SD_DEG: f64 = 2.0;
 
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
@@ -55,7 +56,7 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     let nodes = [mean - sd, mean, mean + sd];
     let state = |(at, node): (usize, &f64)| {
         let fold = scene.fold.with_angle_deg(*node)?;
-        // the fold that was stated is solved already
+        // the stated fold is already solved
         let response = if at == 1 { scene.response.clone() } else { respond(&fold, tolerance)?.0 };
         Ok(State { fold, response, factors: vec![(ANGLE.name, Factor::Node { nodes, at })] })
     };

@@ -1,10 +1,9 @@
-//! How rough the sheet is under its surface.
+//! Roughness of the sheet below its surface.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Roughness of the body of the sheet: the spread of the slopes of its facets (Oren and Nayar's sigma),
-/// degrees.
+/// Body roughness: spread of the slopes of the body's microfacets (Oren and Nayar's sigma), degrees.
 pub static BODY_ROUGHNESS: Unknown = Unknown {
     name: "body_roughness_deg",
     description: "Roughness of the body of the sheet: the spread of the slopes \

@@ -3,7 +3,7 @@
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// By how much both panels turn over their depth, degrees.
+/// Turn of both panels over their depth, degrees.
 pub static BOW: Unknown = Unknown {
     name: "bow_deg",
     description: "By how much both panels turn over their depth",
@@ -21,7 +21,7 @@ pub static BOW: Unknown = Unknown {
     }),
 };
 
-/// Of either kind of bow.
+/// For both kinds of bow.
 pub(super) const BOWED: Symptom = Symptom {
     ideal: |_| 0.0,
     least: 1.0,

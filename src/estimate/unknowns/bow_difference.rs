@@ -1,10 +1,10 @@
-//! Panels that do not bow alike.
+//! Panels that bow differently.
 
 use super::bow::BOWED;
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// By how much panel 0 turns more than both do in the mean, degrees.
+/// Turn of panel 0 beyond the mean of both, degrees.
 pub static BOW_DIFFERENCE: Unknown = Unknown {
     name: "bow_difference_deg",
     description: "By how much panel 0 turns more than both do in the mean",

@@ -1,9 +1,9 @@
-//! How cloudy the sky is.
+//! Cloudiness of the sky.
 
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Share of the sky's light that is an overcast one's; the rest is a clear one's.
+/// Share of the sky's light with the distribution of an overcast sky; the rest has that of a clear one.
 pub static CLOUD: Unknown = Unknown {
     name: "cloud",
     description: "Share of the sky's light that is an overcast sky's",

@@ -3,7 +3,7 @@
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Radius of the rounded crease, in depths of the panels.
+/// Radius of the rounded crease, in panel depths.
 pub static CREASE: Unknown = Unknown {
     name: "crease_radius",
     description: "Radius of the rounded crease, in depths of the panels",

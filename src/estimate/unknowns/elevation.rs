@@ -1,9 +1,9 @@
-//! How far above the horizon the fold opens.
+//! Elevation above the horizon of the direction in which the fold opens.
 
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Angle between the horizon and the direction to which the fold opens, degrees.
+/// Angle between the horizon and the direction in which the fold opens, degrees.
 pub static ELEVATION: Unknown = Unknown {
     name: "elevation_deg",
     description: "How far above the horizon the fold opens",
@@ -21,7 +21,7 @@ pub static ELEVATION: Unknown = Unknown {
     }),
 };
 
-/// People know the zenith as well as where the sun stands across the crease.
+/// A stated zenith is as accurate as the position of the sun across the crease.
 fn prior(stated: &StatedScene) -> Option<Expectation> {
     let priors = stated.priors;
     let usual = Normal { mean: priors.elevation_deg, sd: priors.elevation_sd_deg };

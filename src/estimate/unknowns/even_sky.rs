@@ -1,10 +1,9 @@
-//! A sky that is alike in all directions, as computed scenes have it.
+//! A uniform sky, as in computed scenes.
 
 use super::{AUTO, Effect, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Irradiance of an open plane by light that is alike in all directions, the sun's on one that faces it being
-/// 1.
+/// Irradiance on an open plane from uniform light, relative to the sun's on a plane facing it.
 pub static EVEN_SKY: Unknown = Unknown {
     name: "even_sky",
     description: "Irradiance of an open plane by light that is alike in all directions, \

@@ -1,4 +1,4 @@
-//! How bright the picture is.
+//! Brightness of the picture.
 
 use super::{Effect, Expectation, Flag, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;

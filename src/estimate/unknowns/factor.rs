@@ -1,9 +1,9 @@
-//! What the amount of a source is of one unknown.
+//! Dependence of a source's amount on one unknown.
 
-/// What a source's amount is of one unknown, on its scale.
+/// Dependence of a source's amount on one unknown, on its scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Factor {
-    /// The same whatever it is.
+    /// Independent of it.
     One,
     /// Cosine of an angle in degrees.
     Cosine,
@@ -13,9 +13,9 @@ pub enum Factor {
     Amount,
     /// The quadratic polynomial that is 1 at `nodes[at]` and 0 at the others.
     Node {
-        /// Where sources are known.
+        /// Values at which sources are known.
         nodes: [f64; 3],
-        /// Which of them.
+        /// Index of this node.
         at: usize,
     },
 }
@@ -24,7 +24,7 @@ pub enum Factor {
 pub(super) type Jet = [f64; 3];
 
 impl Factor {
-    /// Its value and derivatives at `x`.
+    /// Value and derivatives at `x`.
     pub(super) fn at(self, x: f64) -> Jet {
         let by_degree = std::f64::consts::PI / 180.0;
         let (sin, cos) = x.to_radians().sin_cos();
@@ -60,7 +60,7 @@ mod tests {
         }
     }
 
-    /// Three nodes hold any quadratic polynomial.
+    /// Three nodes represent any quadratic polynomial.
     #[test]
     fn nodes_interpolate() {
         let nodes = [50.0, 100.0, 160.0];

@@ -3,7 +3,7 @@
 use super::{AUTO, Effect, Expectation, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// By how much one end of the crease has less light than the other, relative to its middle; negative: more.
+/// Loss of light from end 0 to end 1 of the crease, relative to its middle; negative for a gain.
 pub static FALL_OFF: Unknown = Unknown {
     name: "fall_off",
     description: "By how much end 1 of the crease has less light than end 0, relative to the middle",

@@ -1,9 +1,9 @@
-//! How much more the first channel amplifies than it should.
+//! Gain error of the first channel.
 
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Gain of the first channel beside the second, relative to what was said.
+/// Gain of the first channel relative to the second, compared with the stated one.
 pub static FIRST_GAIN: Unknown = Unknown {
     name: "first_gain",
     description: "Gain of the first channel beside the second, relative to the stated one",
@@ -21,7 +21,7 @@ pub static FIRST_GAIN: Unknown = Unknown {
     }),
 };
 
-/// Of either gain.
+/// For both gains.
 pub(super) const UNBALANCED: Symptom = Symptom {
     ideal: |_| 1.0,
     least: 0.02,

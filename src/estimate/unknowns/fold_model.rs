@@ -1,4 +1,4 @@
-//! A fold in its light as a model whose sources come in amounts that depend on unknowns.
+//! A fold in its light, as a model with sources whose amounts depend on unknowns.
 
 use super::sources::{Factors, FoldInLight, Sources};
 use super::{Expected, Factor, Role, SceneModel, Unknown};
@@ -6,10 +6,10 @@ use crate::error::Result;
 use crate::forward::FacetModel;
 
 impl SceneModel {
-    /// The model of facet RGB on a fold with those of `fit` unknown that the scene leaves open.
+    /// The model of facet RGB on a fold, with those of `fit` unknown that the scene leaves open.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if the scene is not one in which they can be fitted.
+    /// [`crate::Error::Field`] if they cannot be fitted in the scene.
     pub fn of_fold(scene: &FoldInLight, fit: &[&'static Unknown]) -> Result<Self> {
         let (mut sources, mut unknowns) = (Sources::of(scene), Vec::new());
         for unknown in fit {

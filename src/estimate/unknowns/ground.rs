@@ -1,4 +1,4 @@
-//! Light from what lies below the sheet.
+//! Light from the ground below the sheet.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;

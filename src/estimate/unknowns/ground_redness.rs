@@ -1,4 +1,4 @@
-//! The colour of what lies below the sheet.
+//! Colour of the ground below the sheet.
 
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;

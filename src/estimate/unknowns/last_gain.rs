@@ -1,10 +1,10 @@
-//! How much more the last channel amplifies than it should.
+//! Gain error of the last channel.
 
 use super::first_gain::UNBALANCED;
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Gain of the last channel beside the second, relative to what was said.
+/// Gain of the last channel relative to the second, compared with the stated one.
 pub static LAST_GAIN: Unknown = Unknown {
     name: "last_gain",
     description: "Gain of the last channel beside the second, relative to the stated one",

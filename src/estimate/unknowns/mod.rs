@@ -1,13 +1,13 @@
-//! Numbers of the scene that are fitted along with the spectrum, one file each; [`TABLE`] lists them.
+//! Parameters of the scene that are fitted along with the spectrum, one file each, listed in [`TABLE`].
 //!
-//! A new one is a file with an [`Unknown`] and a row of the table: without one of its parts it does not
+//! A new parameter is a file with an [`Unknown`] and a row of the table: without one of its parts it does not
 //! compile, without the row it does not pass the lints. The values of `vestimate --fit` and their help, the
 //! records with their schema, residuals and messages follow from the two.
 //!
-//! Facets are sums over sources (a lamp on a fold), and an unknown changes in what amounts they shine
-//! ([`Factor`]) or replaces some by others ([`Sources`]). So a source's amount is a product of one function
-//! of each unknown. What is not linear (the angle of the fold, the colour of the sky) is interpolated between
-//! three sources.
+//! Facets are sums over sources (a lamp on a fold). An unknown changes the amounts of sources ([`Factor`]) or
+//! replaces some sources by others ([`Sources`]), so a source's amount is a product of one function of each
+//! unknown. Nonlinear effects (the angle of the fold, the colour of the sky) are interpolated between three
+//! sources.
 
 mod angle;
 mod body_roughness;
@@ -101,7 +101,7 @@ pub static TABLE: &[&Unknown] = &[
     &LAST_GAIN,
 ];
 
-/// Names of fields in records of earlier versions, with those of today.
+/// Names of fields in records of earlier versions, with the current ones.
 const EARLIER_NAMES: [(&str, &str); 4] = [
     ("fuzz", "sheen"),
     ("gloss", "specular_weight"),
@@ -109,7 +109,7 @@ const EARLIER_NAMES: [(&str, &str); 4] = [
     ("glare", "veiling_glare"),
 ];
 
-/// The unknown of this name in records, those of earlier versions included.
+/// The unknown with this name in records, including those of earlier versions.
 #[must_use]
 pub fn named(name: &str) -> Option<&'static Unknown> {
     let earlier = EARLIER_NAMES.iter().find(|(earlier, _)| *earlier == name);
@@ -124,7 +124,7 @@ pub fn flags() -> impl Iterator<Item = &'static Flag> {
     all.filter(is_first).map(|(_, flag)| flag)
 }
 
-/// What `asked` asks for, in the order of the table.
+/// The unknowns selected by `asked`, in the order of the table.
 #[must_use]
 pub fn of_flags(asked: &[&Flag]) -> Vec<&'static Unknown> {
     TABLE.iter().copied().filter(|unknown| asked.contains(&unknown.flag)).collect()

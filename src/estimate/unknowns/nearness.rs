@@ -1,9 +1,9 @@
-//! A lamp near by in the place of the sun.
+//! A nearby lamp in place of the sun.
 
 use super::{AUTO, Effect, Expectation, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Depth of a panel over the distance of the lamp that lights it: 0 of the sun.
+/// Panel depth divided by the distance of the lamp that lights the sheet; 0 for the sun.
 pub static NEARNESS: Unknown = Unknown {
     name: "nearness",
     description: "Depth of a panel over the distance of the lamp that lights it",

@@ -1,4 +1,4 @@
-//! A facet model whose sources come in amounts that depend on unknowns.
+//! A facet model with sources whose amounts depend on unknowns.
 
 use std::sync::Arc;
 
@@ -10,34 +10,34 @@ use crate::camera::CameraResponse;
 use crate::estimate::emission::{Backing, Emission};
 use crate::forward::FacetModel;
 
-/// An unknown of a scene, and what is known of it before a picture is taken.
+/// An unknown of a scene, with its prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
-    /// What it is.
+    /// The unknown.
     pub unknown: &'static Unknown,
-    /// What is known of it, on its scale.
+    /// Its prior, on its scale.
     pub prior: Normal,
 }
 
 impl Expected {
-    /// The number that is normal where the standard normal one is `w`.
+    /// The normal number at the standard normal number `w`.
     fn normal(self, w: f64) -> f64 {
         self.prior.mean + self.prior.sd * w
     }
 
-    /// Value at `w`, a standard normal number, and its derivative by it, in the unit of the unknown.
+    /// Value at `w`, a standard normal number, and its derivative, in the unit of the unknown.
     #[must_use]
     pub fn at(self, w: f64) -> (f64, f64) {
         let (value, slope) = self.unknown.scale.value(self.normal(w));
         (value, self.prior.sd * slope)
     }
 
-    /// The end of its range that `value` lies beyond, if it does.
+    /// The bound of its range that `value` exceeds, if any.
     #[must_use]
     pub fn bound_of(self, value: f64) -> Option<f64> {
         let Unknown { range, scale, .. } = self.unknown;
         let (least, greatest) = (*range.start(), *range.end());
-        // a reciprocal that is negative is beyond the greatest value, not the least
+        // a negative reciprocal is beyond the greatest value, not the least
         let is_beyond = |end: f64, other: f64| {
             let [end, other, number] = [end, other, value].map(|value| scale.normal(value));
             if end < other { number < end } else { number > end }
@@ -49,45 +49,45 @@ impl Expected {
     }
 }
 
-/// A facet model whose sources come in amounts that depend on unknowns.
+/// A facet model with sources whose amounts depend on unknowns.
 #[derive(Clone, Debug)]
 pub struct SceneModel {
     facets: FacetModel,
     unknowns: Vec<Expected>,
     /// Source by unknown.
     factors: Vec<Vec<Factor>>,
-    /// What the sheet may send out itself in its light, nothing first; empty where that is not asked.
+    /// Possible emissions of the sheet in its light, the first of which is none; empty if emission is not
+    /// considered.
     emissions: Arc<[Emission]>,
 }
 
 impl SceneModel {
-    /// A scene in which all but the spectrum is known.
+    /// A scene in which only the spectrum is unknown.
     #[must_use]
     pub fn known(facets: FacetModel) -> Self {
         let factors = vec![Vec::new(); facets.sources().len()];
         Self::new(facets, Vec::new(), factors)
     }
 
-    /// A scene with unknowns: `factors` has a row for each source of `facets`, with one factor per unknown.
+    /// A scene with unknowns: `factors` has a row per source of `facets`, with one factor per unknown.
     #[must_use]
     pub fn new(facets: FacetModel, unknowns: Vec<Expected>, factors: Vec<Vec<Factor>>) -> Self {
         Self { facets, unknowns, factors, emissions: Arc::default() }
     }
 
-    /// The same scene, in which the sheet, backed so, may send out light itself under light of this relative
-    /// power.
+    /// The same scene with a sheet, backed so, that may emit light itself under light of this relative power.
     #[must_use]
     pub fn under(self, wavelengths_nm: &[f64], power: &[f64], backing: Backing) -> Self {
         Self { emissions: Emission::all(wavelengths_nm, power, backing).into(), ..self }
     }
 
-    /// What the sheet may send out itself, nothing first; empty where that is not asked.
+    /// Possible emissions of the sheet, the first of which is none; empty if emission is not considered.
     #[must_use]
     pub fn emissions(&self) -> &[Emission] {
         &self.emissions
     }
 
-    /// The model, each source in the amount 1.
+    /// The model with every source in the amount 1.
     #[must_use]
     pub fn facets(&self) -> &FacetModel {
         &self.facets
@@ -99,14 +99,13 @@ impl SceneModel {
         &self.unknowns
     }
 
-    /// The same scene with another light in the place of each of its sources' own, as the camera responds to
-    /// it.
+    /// The same scene with another light in place of that of every source, given the camera's response to it.
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
         Self { facets: self.facets.in_light(camera), emissions: Arc::default(), ..self.clone() }
     }
 
-    /// The same scene with one unknown known to have this value.
+    /// The same scene with one unknown fixed at this value.
     #[must_use]
     pub fn with_known(mut self, unknown: usize, value: f64) -> Self {
         let Expected { unknown, prior } = &mut self.unknowns[unknown];
@@ -114,7 +113,7 @@ impl SceneModel {
         self
     }
 
-    /// The model with its unknowns, in their order and units, known to have these values.
+    /// The model with its unknowns, in their order and units, fixed at these values.
     #[must_use]
     pub fn with_values(&self, values: &[f64]) -> FacetModel {
         let amount = |factors: &Vec<Factor>| {
@@ -128,8 +127,8 @@ impl SceneModel {
         self.facets.in_amounts(&self.factors.iter().map(amount).collect::<Vec<f64>>())
     }
 
-    /// The model with its unknowns known to be as they were `found`, in their units, or as expected where
-    /// they were not.
+    /// The model with its unknowns at their `found` values, in their units, or at their prior means if there
+    /// are none.
     #[must_use]
     pub fn with_fitted(&self, found: impl Fn(&Unknown) -> Option<f64>) -> FacetModel {
         let value = |one: &Expected| found(one.unknown).unwrap_or_else(|| one.at(0.0).0);
@@ -156,7 +155,7 @@ impl SceneModel {
     }
 }
 
-/// Amounts of the sources about a point, as factors with their derivatives: source by unknown.
+/// Amounts of the sources near a point, as factors with their derivatives: source by unknown.
 pub struct Amounts {
     jets: Vec<Vec<Jet>>,
     unknowns: usize,
@@ -182,7 +181,7 @@ impl Amounts {
         DMatrix::from_fn(self.unknowns, self.unknowns, |p, q| self.derivative(&[p, q]).dot(weights))
     }
 
-    /// The amounts derived by each unknown of `by` in turn.
+    /// The amounts differentiated by each unknown of `by` in turn.
     fn derivative(&self, by: &[usize]) -> DVector<f64> {
         let order = |p: usize| by.iter().filter(|q| **q == p).count();
         let product = |jets: &Vec<Jet>| jets.iter().enumerate().map(|(p, jet)| jet[order(p)]).product();
@@ -195,7 +194,7 @@ mod tests {
     use super::*;
     use crate::estimate::unknowns::{SKY, SKY_COLOUR};
 
-    /// Skies bluer than any have a reciprocal temperature below nothing.
+    /// Skies bluer than any real one have a negative reciprocal temperature.
     #[test]
     fn bounds_are_those_that_were_passed() {
         let colour = Expected { unknown: &SKY_COLOUR, prior: Normal { mean: 100.0, sd: 30.0 } };

@@ -1,9 +1,9 @@
-//! Fibres that stand up from the sheet.
+//! Upright fibres on the sheet.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Sheen: brightening of the body at grazing incidence or viewing, by fibres that stand up, as those of felt.
+/// Sheen: brightening of the body at grazing incidence or viewing by upright fibres, as in felt.
 pub static SHEEN: Unknown = Unknown {
     name: "sheen",
     description: "Sheen: brightening of the body at grazing incidence or viewing, by fibres that stand up, \

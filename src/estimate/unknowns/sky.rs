@@ -1,4 +1,4 @@
-//! How much light comes from the sky.
+//! Amount of light from the sky.
 
 use super::sources::Source;
 use super::{
@@ -7,7 +7,7 @@ use super::{
 use crate::error::Result;
 use crate::estimate::photograph::StatedScene;
 
-/// Irradiance of the sky on a plane facing the sun, the sun's being 1.
+/// Irradiance from the sky on a plane facing the sun, relative to the sun's.
 pub static SKY: Unknown = Unknown {
     name: "sky",
     description: "Diffuse-to-direct ratio: irradiance by the sky of an open plane that faces the sun, \
@@ -30,14 +30,14 @@ pub static SKY: Unknown = Unknown {
 };
 
 /// Standard deviation of the sky: a clear one gives a tenth to a third of the sun's light, a hazy one half of
-/// it, of which a sheet among houses gets a part.
+/// it, and a sheet among houses gets a part of that.
 const SD: f64 = 0.25;
 
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
     Ok(Some(Normal { mean: scene.lighting.light.sky(), sd: SD }))
 }
 
-/// The sky that the scene may have gives way to one of irradiance 1 in an unknown amount.
+/// Replaces any sky of the scene by one of irradiance 1 in an unknown amount.
 fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     sources.replace(|source| match source.lamp {
         Lamp::Sky { .. } => Vec::new(),

@@ -27,18 +27,18 @@ pub static SKY_COLOUR: Unknown = Unknown {
     }),
 };
 
-/// Reciprocal colour temperature of the sky, 1e-6/K, and its standard deviation: 10000 K, two of three
+/// Reciprocal colour temperature of the sky, 1e-6/K, and its standard deviation: 10000 K, two in three
 /// between 7700 K and 14300 K. An overcast sky has 6500 K, a clear blue one up to 25000 K, where CIE daylight
 /// ends.
 const MIRED: Normal = Normal { mean: 100.0, sd: 30.0 };
-/// Skies between which that of any temperature is interpolated, K.
+/// Temperatures of the skies between which others are interpolated, K.
 const SKIES_K: [u32; 3] = [20_000, 10_000, 6_250];
 
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
     Ok((!scene.has_sky_illuminant).then_some(MIRED))
 }
 
-/// Every sky becomes three of other colours.
+/// Every sky becomes three of different colours.
 fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     let nodes = SKIES_K.map(|cct_k| 1e6 / f64::from(cct_k));
     let skies: Vec<_> = SKIES_K.iter().map(|cct_k| daylight(scene, *cct_k)).collect::<Result<_>>()?;

@@ -1,4 +1,4 @@
-//! A fold in its light as sources, which unknowns change.
+//! A fold in its light, as sources that unknowns modify.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -15,22 +15,21 @@ use crate::spectrum::WavelengthGrid;
 pub struct FoldInLight {
     /// The fold.
     pub fold: Fold,
-    /// What all bounces on it make of light.
+    /// Its response to light, all bounces included.
     pub response: Response,
-    /// Relative error that facet means were allowed, where the mesh is as fine as that asks for; none where
-    /// the mesh was given.
+    /// Relative error permitted for facet means, if the mesh follows from it; `None` if the mesh was given.
     pub tolerance: Option<f64>,
-    /// Sun and sky as the camera responds to them.
+    /// Sun and sky in terms of the camera's response.
     pub lighting: Lighting,
     /// Relative power of the sun, one value per waveband.
     pub sun_power: DVector<f64>,
     /// Mean daylight and its two characteristic vectors: waveband by three.
     pub daylight_vectors: DMatrix<f64>,
-    /// The daylight that the sun was said to be, if it is any.
+    /// The daylight that the stated sun stands for, if it is any.
     pub daylight: Option<Daylight>,
-    /// Whether the colour of the sky is given.
+    /// True if the colour of the sky is stated.
     pub has_sky_illuminant: bool,
-    /// The card in the place of one panel, if there is one.
+    /// The card in place of a panel, if there is one.
     pub card: Option<Card>,
     /// Wavelengths.
     pub grid: WavelengthGrid,
@@ -38,27 +37,27 @@ pub struct FoldInLight {
     pub sensitivities: Vec<Vec<f64>>,
 }
 
-/// What a source's amount is of some unknowns, by their names; of all others it is the same.
+/// Dependence of a source's amount on some unknowns, by name; it is independent of the others.
 pub type Factors = Vec<(&'static str, Factor)>;
 
 /// A light, on any fold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lamp {
-    /// The sun where it stands.
+    /// The sun at its position.
     Sun,
-    /// What panels receive alike from a sun on the bisecting plane.
+    /// The part of sunlight that both panels receive alike, for a sun on the bisecting plane.
     EvenSun,
-    /// What panel 0 receives more and panel 1 less for each unit of the sine of the sun's tilt.
+    /// Sunlight that panel 0 gains and panel 1 loses per unit of the sine of the sun's tilt.
     OddSun,
     /// A uniform sky.
     Sky {
-        /// Irradiance of an open plane, the sun's being 1.
+        /// Irradiance of an open plane, relative to the sun's.
         irradiance: f64,
     },
 }
 
 impl Lamp {
-    /// The same on `fold`, the sun standing as in `light`.
+    /// The light on `fold`, with the sun positioned as in `light`.
     fn on(self, fold: &Fold, light: &Light) -> Result<ModeLight> {
         let [even, odd] = light.even_and_odd(fold);
         Ok(match self {
@@ -81,7 +80,7 @@ impl Lamp {
     }
 }
 
-/// A lamp that the camera sees, with what its amount depends on.
+/// A lamp as seen by the camera, with the dependences of its amount.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The lamp.
@@ -97,7 +96,7 @@ impl Source {
         Self { lamp, camera, factors: Vec::new() }
     }
 
-    /// The same in an amount that also is this `factor` of the `unknown` of that name.
+    /// The same with its amount multiplied by this `factor` of the `unknown` with that name.
     #[must_use]
     pub fn with(&self, unknown: &'static str, factor: Factor) -> Self {
         let factors = self.factors.iter().copied().chain([(unknown, factor)]).collect();
@@ -110,32 +109,32 @@ impl Source {
         Self { lamp, ..self }
     }
 
-    /// The same with another response of the camera.
+    /// The same with another camera response.
     #[must_use]
     pub fn seen_by(&self, camera: CameraResponse) -> Self {
         Self { camera, ..self.clone() }
     }
 }
 
-/// A fold that the scene's may be, solved.
+/// A solved fold that may be that of the scene.
 pub struct State {
     /// The fold.
     pub fold: Fold,
     /// Its response.
     pub response: Response,
-    /// In what amount its light counts.
+    /// Dependences of the amount of its light.
     pub factors: Factors,
 }
 
-/// All that facets are a sum of: every lamp on every state of the fold.
+/// All terms of the facets' sum: every lamp on every state of the fold.
 pub struct Sources {
-    /// Folds of which the scene's is one, or between which it lies.
+    /// Folds among which, or between which, the scene's lies.
     pub states: Vec<State>,
     lamps: Vec<Source>,
 }
 
 impl Sources {
-    /// Sources of which nothing is unknown.
+    /// Sources without unknowns.
     pub(super) fn of(scene: &FoldInLight) -> Self {
         let FoldInLight { fold, response, lighting, .. } = scene;
         let state = State { fold: *fold, response: response.clone(), factors: Vec::new() };
@@ -146,7 +145,7 @@ impl Sources {
         Self { states: vec![state], lamps: sun.into_iter().chain(sky).collect() }
     }
 
-    /// Puts others in the place of each lamp.
+    /// Replaces each lamp by others.
     pub fn replace(&mut self, by: impl Fn(Source) -> Vec<Source>) {
         self.lamps = std::mem::take(&mut self.lamps).into_iter().flat_map(by).collect();
     }
@@ -156,7 +155,7 @@ impl Sources {
         self.lamps.push(lamp);
     }
 
-    /// The lamps on the states, suns before skies, with all that their amounts depend on.
+    /// The lamps on the states, suns before skies, with all dependences of their amounts.
     pub(super) fn on_states(&self, light: &Light) -> Result<Vec<(Lit<'_>, Factors)>> {
         let (skies, suns): (Vec<_>, Vec<_>) = self.lamps.iter().partition(|source| source.lamp.is_sky());
         let mut all = Vec::new();

@@ -1,9 +1,9 @@
-//! How sharply the surface of the sheet reflects.
+//! Width of the sheet's specular reflection.
 
 use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Roughness of the surface: GGX's alpha.
+/// Specular roughness: GGX's alpha.
 pub static SPECULAR_ROUGHNESS: Unknown = Unknown {
     name: "specular_roughness",
     description: "Roughness of the surface: GGX's alpha",

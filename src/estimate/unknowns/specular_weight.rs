@@ -1,10 +1,9 @@
-//! What the surface of the sheet reflects before light enters it.
+//! Specular reflection by the surface of the sheet.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Specular weight: strength of the surface's reflection, that of a bare surface of refractive index 1.5
-/// being 1.
+/// Specular weight: strength of the surface's reflection, relative to a bare surface of refractive index 1.5.
 pub static SPECULAR_WEIGHT: Unknown = Unknown {
     name: "specular_weight",
     description: "Specular weight: strength of the surface's reflection, that of a bare surface \

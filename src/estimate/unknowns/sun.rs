@@ -1,10 +1,9 @@
-//! How much of the sun comes through clouds, or past what throws a shadow.
+//! Sunlight that passes clouds or an object casting a shadow.
 
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Irradiance by the sun of a plane that faces it, where it is hidden: the sky's of an open horizontal plane
-/// is 1.
+/// Irradiance from the hidden sun on a plane facing it, relative to the sky's on an open horizontal plane.
 pub static SUN: Unknown = Unknown {
     name: "sun",
     description: "Irradiance by the hidden sun of a plane that faces it, relative to the sky's \

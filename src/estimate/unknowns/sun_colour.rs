@@ -10,8 +10,8 @@ use crate::estimate::photograph::StatedScene;
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::priors::Priors;
 
-/// Correlated colour temperature of the sun, K. Facets tell little of it: what is known of direct sunlight
-/// takes the place of what was said.
+/// Correlated colour temperature of the sun, K. As facets reveal little about it, the prior of direct
+/// sunlight replaces the stated value.
 pub static SUN_COLOUR: Unknown = Unknown {
     name: "sun_cct_k",
     description: "Correlated colour temperature of the sun",
@@ -51,7 +51,7 @@ fn of_daylight(nominal: Daylight, priors: &Priors) -> Normal {
     Normal { mean, sd: priors.sun_mired_sd }
 }
 
-/// Every sun becomes three of other colours.
+/// Every sun becomes three of different colours.
 fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources) -> Result<()> {
     let Some(nominal) = scene.daylight else { return Ok(()) };
     let nodes = [mean - 2.0 * sd, mean, mean + 2.0 * sd];
@@ -68,8 +68,8 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     Ok(())
 }
 
-/// The camera's response to the sun, as much redder or bluer than it was said to be as daylight of this
-/// reciprocal temperature is.
+/// The camera's response to the sun, made redder or bluer than stated by the ratio of daylight at this
+/// reciprocal temperature to the nominal one.
 fn sun(scene: &FoldInLight, nominal: Daylight, mired: f64) -> Result<CameraResponse> {
     let [now, nominal] =
         [mired, nominal.mired()].map(|mired| Daylight::power(&scene.daylight_vectors, mired));

@@ -1,4 +1,4 @@
-//! Where the sun stands across the crease.
+//! Position of the sun across the crease.
 
 use super::{
     Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom,
@@ -30,8 +30,8 @@ pub static TILT: Unknown = Unknown {
     }),
 };
 
-/// Standard deviation of a tilt, degrees, or a quarter of the opening if that is less: who turns a sheet to
-/// the sun by eye errs by a few degrees, and a sun further off shades a panel, which one sees.
+/// Standard deviation of a tilt, degrees, or a quarter of the opening angle if that is less: turning a sheet
+/// to the sun by eye leaves a few degrees, and a sun further off visibly shades a panel.
 const SD_DEG: f64 = 10.0;
 
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
@@ -39,7 +39,7 @@ fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
     Ok(Some(Normal { mean: scene.lighting.light.tilt_deg(), sd }))
 }
 
-/// Every sun becomes its even and its odd part.
+/// Every sun is split into its even and odd parts.
 fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     sources.replace(|source| match source.lamp {
         Lamp::Sun => {

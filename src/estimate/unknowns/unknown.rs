@@ -1,4 +1,4 @@
-//! What an unknown of the scene is.
+//! Definition of an unknown of the scene.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -8,140 +8,140 @@ use crate::error::Result;
 use crate::estimate::normal::{Expectation, Normal, Scale};
 use crate::estimate::photograph::conditions::{Conditions, StatedScene};
 
-/// What asks for everything that photographs of real sheets need.
+/// Fits everything that photographs of real sheets need.
 pub static AUTO: Flag =
     Flag { value: "auto", help: "All effects of real sheets, lights and lenses, each with a prior" };
 
 /// Takes the scene as stated.
 pub static NONE: Flag = Flag { value: "none", help: "Nothing: the scene is taken as stated" };
 
-/// A number of the scene that can be fitted.
+/// A parameter of the scene that can be fitted.
 pub struct Unknown {
     /// Name of the field in records, unit included.
     pub name: &'static str,
-    /// What it is, for the schema; without the unit.
+    /// Description for the schema, without the unit.
     pub description: &'static str,
-    /// The unit in full; none for a ratio.
+    /// The unit in full; `None` for a ratio.
     pub unit: Option<&'static str>,
-    /// What asks for it.
+    /// The flag that selects it.
     pub flag: &'static Flag,
-    /// Least and greatest value that it can have.
+    /// Smallest and largest possible value.
     pub range: RangeInclusive<f64>,
-    /// What of the value is normal before a picture is taken.
+    /// The scale on which its prior is normal.
     pub scale: Scale,
-    /// How it enters the model of an ideal fold.
+    /// Its role in the model of an ideal fold.
     pub role: Role,
-    /// How it enters that of a photograph of a real sheet.
+    /// Its effect in the model of a photograph of a real sheet.
     pub photograph: Option<Effect>,
 }
 
-/// How an unknown enters the model of a photograph.
+/// Effect of an unknown in the model of a photograph.
 pub struct Effect {
-    /// What it is a number of.
+    /// The part of the scene to which it belongs.
     pub whose: Whose,
-    /// How it is known.
+    /// Source of prior knowledge.
     pub known: fn(&StatedScene) -> Known,
-    /// What is known of it before the picture is looked at; none where it does not occur.
+    /// Its prior; `None` if it does not occur.
     pub prior: fn(&StatedScene) -> Option<Expectation>,
-    /// Makes it one of the conditions.
+    /// Sets it in the conditions.
     pub set: fn(&mut Conditions, f64),
-    /// What the user reads about it; none of what every photograph has.
+    /// Report to the user; `None` for what every photograph has.
     pub symptom: Option<Symptom>,
 }
 
-/// What an unknown of a photograph is a number of, and the only part of it that depends on that number.
+/// The part of a photograph to which an unknown belongs, the only one that depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Whose {
-    /// The sheet: how its surface and body reflect, the same in every photograph of it.
+    /// The sheet: reflection by its surface and body, the same in every photograph of it.
     Sheet,
-    /// The fold, as one photograph shows it: its shape, and where the sun stands before it.
+    /// The fold in one photograph: its shape, and the position of the sun.
     Fold,
-    /// What sun and sky both shine on, or how much the sun does.
+    /// Everything lit by both sun and sky, or the amount of sun.
     Scene,
     /// The light: colour of the sun, sky and ground.
     Light,
-    /// The lens, and what becomes of light behind it.
+    /// The lens, and the path of light behind it.
     Lens,
 }
 
-/// How something is known of a photograph before it is looked at.
+/// Source of prior knowledge about a photograph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
-    /// As photographs usually are.
+    /// Usual photographs.
     Usual,
-    /// Somebody measured it: near to that as a rule, now and then a blunder.
+    /// A measurement by the user: usually close, now and then a blunder.
     Stated,
-    /// The camera's settings and the day tell it, if nothing was put before the lens.
+    /// The camera's settings and the day, unless something was put in front of the lens.
     Metered,
-    /// A chart or a card showed it, which is no blunder.
+    /// A chart or a card, which makes no blunders.
     Shown,
-    /// Camera and light were stated: they are as two of a kind differ.
+    /// The stated camera and light, with the differences between two of a kind.
     Nominal,
-    /// An ideal fold does not have it: there is more of it, the less ideal a photograph is.
+    /// An effect that an ideal fold lacks: the less ideal a photograph, the more of it.
     Imperfection,
-    /// It is a property of what an ideal fold does not have.
+    /// A property of something that an ideal fold lacks.
     OfImperfection,
 }
 
-/// What is not ideal about a photograph, in the words of who took it.
+/// A deviation of a photograph from the ideal, in the photographer's words.
 #[derive(Debug)]
 pub struct Symptom {
-    /// Value where nothing is wrong.
+    /// Ideal value.
     pub ideal: fn(&StatedScene) -> f64,
-    /// Least difference from it that is worth a word.
+    /// Least difference from it worth reporting.
     pub least: f64,
     /// What is wrong.
     pub words: fn(&Fitted, &StatedScene) -> String,
-    /// What to do about it.
+    /// What to do.
     pub remedy: &'static str,
 }
 
-/// A value of `vestimate --fit`; unknowns that share it are fitted together.
+/// A value of `vestimate --fit`; unknowns with the same one are fitted together.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Flag {
-    /// As it is written.
+    /// The value.
     pub value: &'static str,
     /// What is fitted.
     pub help: &'static str,
 }
 
-/// How an unknown enters the model.
+/// Role of an unknown in the model.
 pub enum Role {
-    /// The model is proportional to it: the best one is a quotient for every spectrum tried, and nothing is
-    /// known of it before.
+    /// The model is proportional to it: the best value is a quotient for every spectrum tried, and it has no
+    /// prior.
     Exposure,
-    /// It is none of an ideal fold's.
+    /// It does not occur in an ideal fold.
     Photograph,
     /// It changes the sources.
     Sources {
-        /// What is known of it before a picture is taken; none where the scene leaves nothing open.
+        /// Its prior; `None` if the scene leaves nothing open.
         prior: fn(&FoldInLight) -> Result<Option<Normal>>,
-        /// Puts it into the sources.
+        /// Introduces it into the sources.
         enter: fn(&FoldInLight, Normal, &mut Sources) -> Result<()>,
     },
 }
 
-/// A number of the scene as found.
+/// A fitted parameter of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fitted {
-    /// What it is.
+    /// The unknown.
     pub unknown: &'static Unknown,
     /// Value.
     pub value: f64,
     /// Standard deviation, in the same unit.
     pub sd: f64,
-    /// Whether the facets say more of it than was known before.
+    /// True if the facets say more about it than the prior.
     pub supported: bool,
 }
 
 impl Unknown {
-    /// Whether it is a number of the sheet, the same in every photograph of it.
+    /// True if it belongs to the sheet, and is the same in every photograph of it.
     #[must_use]
     pub fn is_of_sheet(&self) -> bool {
         self.photograph.as_ref().is_some_and(|effect| effect.whose == Whose::Sheet)
     }
 
-    /// Whether it is one of photographs of real sheets alone.
+    /// True if it occurs only in photographs of real sheets.
     #[must_use]
     pub fn is_of_photographs(&self) -> bool {
         match self.role {
@@ -151,7 +151,7 @@ impl Unknown {
     }
 }
 
-/// Names tell unknowns apart.
+/// Names identify unknowns.
 impl PartialEq for Unknown {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name

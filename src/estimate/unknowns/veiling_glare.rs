@@ -3,7 +3,7 @@
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Veiling glare: share of the picture's light that the lens spreads over all of it.
+/// Veiling glare: share of the picture's light that the lens spreads evenly over it.
 pub static VEILING_GLARE: Unknown = Unknown {
     name: "veiling_glare",
     description: "Veiling glare: share of the picture's light that the lens spreads over all of it",

@@ -3,7 +3,7 @@
 use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
-/// Share of the light that the lens loses in the picture's corners.
+/// Share of the light lost by the lens in the picture's corners.
 pub static VIGNETTING: Unknown = Unknown {
     name: "vignetting",
     description: "Share of the light that the lens loses in the picture's corners",

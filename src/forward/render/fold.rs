@@ -7,12 +7,12 @@ use crate::error::Result;
 use crate::geometry::{FacetGrid, Fold};
 use crate::image::Point;
 
-/// Cells of a panel, away from the crease and along it, on which the light is computed.
+/// Cells of a panel on which light is computed: rows away from the crease, columns along it.
 const CELLS: FacetGrid = FacetGrid { rows: 160, cols: 96 };
-/// The camera stands this many times the fold's size away.
+/// Distance of the camera, in sizes of the fold.
 const DISTANCE: f64 = 7.0;
 
-/// A fold, placed as [`Fold::panels`] has it, and the camera that sees it.
+/// A fold placed as in [`Fold::panels`], and the camera that sees it.
 #[derive(Clone, Debug)]
 pub struct FoldView {
     frame: Frame,
@@ -29,8 +29,8 @@ struct Surface {
 }
 
 impl FoldView {
-    /// A view into the fold; where `viewpoint` does not say otherwise, from a little off its bisecting plane,
-    /// the crease upright, panel 0 on the left.
+    /// A view into the fold. Unless `viewpoint` says otherwise, it is seen from slightly off its bisecting
+    /// plane, with the crease upright and panel 0 on the left.
     ///
     /// # Errors
     /// As [`Viewpoint::camera`].
@@ -54,28 +54,28 @@ impl FoldView {
         Ok(Self { frame, camera, panels })
     }
 
-    /// The numbers of the panels wholly in front of the camera, and their corners in the picture: crease end
-    /// 0, crease end 1, outer end 1, outer end 0.
+    /// The panels wholly in front of the camera: their indices and their corners in the picture (crease end
+    /// 0, crease end 1, outer end 1, outer end 0).
     #[must_use]
     pub fn corners(&self) -> Vec<(usize, [Point; 4])> {
         let seen = |panel: &Surface| self.camera.project_all(panel.corners);
         self.panels.iter().enumerate().filter_map(|(k, panel)| Some((k, seen(panel)?))).collect()
     }
 
-    /// Where the camera stands, in the fold's unit.
+    /// Position of the camera, in the unit of the fold.
     #[must_use]
     pub fn eye(&self) -> Vector3<f64> {
         self.camera.position()
     }
 
-    /// Cells of a panel whose light a picture needs.
+    /// The cells of a panel on which a picture needs the light.
     #[must_use]
     pub fn grid(&self) -> FacetGrid {
         CELLS
     }
 
-    /// Takes a picture of the light on the cells of both panels (cell by channel, as [`FoldView::grid`]
-    /// orders them), of up to three channels, before a black background.
+    /// Renders the light on the cells of both panels (cell by channel, in the order of [`FoldView::grid`], up
+    /// to three channels) before a black background.
     #[must_use]
     pub fn take(&self, light: &DMatrix<f64>) -> Picture {
         Picture::take(self.frame, &self.camera, |eye, sight| {
@@ -89,10 +89,10 @@ impl FoldView {
     }
 }
 
-/// Where a line of sight meets a panel.
+/// Intersection of a line of sight with a panel.
 struct Hit {
     distance: f64,
-    /// Place along the crease and away from it, both from 0 to 1.
+    /// Position along the crease and away from it, both from 0 to 1.
     u: f64,
     v: f64,
     lit: bool,
@@ -115,7 +115,7 @@ impl Surface {
     }
 }
 
-/// Bilinear between the centres of the cells.
+/// Bilinear interpolation between the centres of the cells.
 fn interpolate(light: &DMatrix<f64>, panel: usize, u: f64, v: f64) -> [f64; 3] {
     let along = |position: f64, cells: usize| {
         let position = (position * cells as f64 - 0.5).clamp(0.0, (cells - 1) as f64);
@@ -131,8 +131,8 @@ fn interpolate(light: &DMatrix<f64>, panel: usize, u: f64, v: f64) -> [f64; 3] {
     std::array::from_fn(|channel| if channel < light.ncols() { value(channel) } else { 0.0 })
 }
 
-/// From within the fold's opening, so that neither panel hides the other; rolled by two degrees: no pixel row
-/// runs along an edge.
+/// A position inside the fold's opening, so that neither panel hides the other. It is rolled by two degrees,
+/// so that no edge is parallel to a row of pixels.
 fn usual_stand(fold: &Fold) -> Stand {
     let aside = (fold.angle_rad() / 6.0).min(0.1);
     let direction = Vector3::new(aside.sin(), -0.12, aside.cos()).normalize();

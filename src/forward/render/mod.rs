@@ -1,4 +1,4 @@
-//! Photographs of what is lit: a pinhole camera, and the light along its lines of sight.
+//! Rendered photographs: a pinhole camera, and the light along its lines of sight.
 
 mod fold;
 mod picture;

@@ -1,4 +1,4 @@
-//! Pictures: the light along every line of sight, averaged over pixels.
+//! Pictures: the light along lines of sight, averaged over pixels.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::colorimetry::encode_srgb;
 use crate::error::Result;
 use crate::image::{Point, write_linear, write_srgb_png};
 
-/// Samples of a pixel in each direction: its value is the mean over its area.
+/// Samples per pixel in each direction; a pixel's value is their mean.
 const SUBPIXELS: usize = 4;
 
 /// Linear camera RGB, row by row from the top.
@@ -21,9 +21,10 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Takes a picture: `light` is what comes to a point against a direction, 0 where there is nothing.
+    /// Renders a picture. `light` gives the light reaching a point along a line of sight, 0 where nothing is
+    /// seen.
     ///
-    /// The same for any number of threads.
+    /// The result does not depend on the number of threads.
     ///
     /// # Example
     /// ```
@@ -64,7 +65,7 @@ impl Picture {
         &mut self.rgb
     }
 
-    /// Writes the picture as it is, linear: OpenEXR or 16-bit TIFF.
+    /// Writes the linear values unchanged: OpenEXR or 16-bit TIFF.
     ///
     /// # Errors
     /// As [`write_linear`].
@@ -72,7 +73,7 @@ impl Picture {
         write_linear(path, self.frame.width(), self.frame.height(), &self.rgb)
     }
 
-    /// Writes linear sRGB for a screen: 8-bit PNG, the brightest pixel white.
+    /// Writes an 8-bit sRGB PNG for a screen, with the brightest value white.
     ///
     /// # Errors
     /// As [`write_srgb_png`].

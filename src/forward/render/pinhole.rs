@@ -1,15 +1,15 @@
-//! A camera without lens errors: which point of space its picture shows where.
+//! A camera without lens errors: the projection between space and picture.
 
 use nalgebra::Vector3;
 
 use crate::error::{Error, Result};
 use crate::image::Point;
 
-/// Share of the picture that its subject fills.
+/// Share of the picture filled by its subject.
 const FILL: f64 = 0.84;
-/// Most pixels of a picture.
+/// Maximum number of pixels in a picture.
 const MOST_PIXELS: usize = 1 << 28;
-/// Directions that differ by less than this sine count as one.
+/// Directions whose angle has a smaller sine than this count as parallel.
 const PARALLEL: f64 = 1e-6;
 
 /// Width and height of a picture, px.
@@ -49,18 +49,18 @@ impl Frame {
     }
 }
 
-/// Where a camera stands and what it looks at, in the unit of its subject.
+/// Position and orientation of a camera, in the unit of its subject.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stand {
     /// The pinhole.
     pub eye: Vector3<f64>,
-    /// What is seen on the optical axis.
+    /// A point on the optical axis.
     pub look_at: Vector3<f64>,
-    /// What points upwards in the picture; only its part across the line of sight matters.
+    /// The upward direction in the picture; only its component across the line of sight matters.
     pub up: Vector3<f64>,
 }
 
-/// How a subject is looked at, as far as it is said; the rest is left to the subject.
+/// The stated part of how a subject is viewed; the subject determines the rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viewpoint {
     /// See [`Stand::eye`].
@@ -69,13 +69,12 @@ pub struct Viewpoint {
     pub look_at: Option<Vector3<f64>>,
     /// See [`Stand::up`].
     pub up: Option<Vector3<f64>>,
-    /// Angle over the picture's width, degrees; without it the picture is cut to its subject.
+    /// Horizontal field of view, degrees; `None` fits the picture to its subject.
     pub field_of_view_deg: Option<f64>,
 }
 
 impl Viewpoint {
-    /// The camera that looks so at a subject with these outermost `points`, which is otherwise looked at from
-    /// `usual`.
+    /// The camera for a subject with these outermost `points`, with `usual` in place of what is not stated.
     ///
     /// # Errors
     /// As [`Pinhole::framing`] and [`Pinhole::with_field_of_view`].
@@ -99,17 +98,17 @@ pub struct Pinhole {
     right: Vector3<f64>,
     up: Vector3<f64>,
     forward: Vector3<f64>,
-    /// Picture's distance from the pinhole, px.
+    /// Distance of the picture from the pinhole, px.
     focal_px: f64,
     /// Where the optical axis meets the picture.
     centre: Point,
 }
 
 impl Pinhole {
-    /// A camera whose picture is as wide as `degrees`, in (0, 180), with the optical axis in its middle.
+    /// A camera with a horizontal field of view of `degrees` in (0, 180) and the optical axis in the middle.
     ///
     /// # Errors
-    /// [`Error::Usage`] for another angle, an eye on the point it looks at, or an up along the line of sight.
+    /// [`Error::Usage`] for other angles, an eye at the point it looks at, or an up along the line of sight.
     ///
     /// # Example
     /// ```
@@ -133,12 +132,12 @@ impl Pinhole {
         Ok(Self { focal_px, centre: Point::new(width / 2.0, height / 2.0), ..Self::at(stand)? })
     }
 
-    /// A camera whose picture is cut to the subject with these outermost `points`: they fill 84 % of its
-    /// width or height.
+    /// A camera whose picture fits the subject with these outermost `points`: they fill 84 % of its width or
+    /// height.
     ///
     /// # Errors
-    /// [`Error::Usage`] if a point is not in front of the camera, all are seen in one place, the eye is on
-    /// the point it looks at, or up along the line of sight.
+    /// [`Error::Usage`] if a point is not in front of the camera, all points coincide in the picture, the eye
+    /// is at the point it looks at, or up is along the line of sight.
     ///
     /// # Example
     /// ```
@@ -173,7 +172,7 @@ impl Pinhole {
         Ok(Self { focal_px, centre: Point::new(middle(x, width), middle(y, height)), ..camera })
     }
 
-    /// The camera with its picture one unit away.
+    /// The camera with its picture at unit distance.
     fn at(stand: &Stand) -> Result<Self> {
         let sight = stand.look_at - stand.eye;
         let forward = sight.try_normalize(0.0).filter(|forward| forward.iter().all(|x| x.is_finite()));
@@ -196,7 +195,7 @@ impl Pinhole {
         self.position
     }
 
-    /// Where a point of space is in the picture, px; none if it is not in front of the camera.
+    /// Position of a point in the picture, px; `None` if the point is not in front of the camera.
     #[must_use]
     pub fn project(&self, point: Vector3<f64>) -> Option<Point> {
         let from = point - self.position;
@@ -207,14 +206,14 @@ impl Pinhole {
         })
     }
 
-    /// The same of several points; none if one of them is not in front of the camera.
+    /// Positions of several points; `None` if any of them is not in front of the camera.
     #[must_use]
     pub fn project_all<const N: usize>(&self, points: [Vector3<f64>; N]) -> Option<[Point; N]> {
         let seen: Option<Vec<Point>> = points.iter().map(|point| self.project(*point)).collect();
         seen?.try_into().ok()
     }
 
-    /// The direction, of length 1, in which the camera sees what is at a point of its picture.
+    /// Unit vector from the camera through a point of its picture.
     #[must_use]
     pub fn line_of_sight(&self, at: Point) -> Vector3<f64> {
         let (x, y) = (at.x - self.centre.x, self.centre.y - at.y);
@@ -254,7 +253,7 @@ mod tests {
     }
 
     proptest! {
-        /// What the line of sight through a point of the picture passes is seen at that point.
+        /// Points on the line of sight through a point of the picture project back onto it.
         #[test]
         fn a_line_of_sight_is_seen_as_a_point(
             eye in prop::array::uniform3(-3.0..3.0),

@@ -1,21 +1,19 @@
-//! Columns along the crease: what a place sees of a strip's columns, those that are mirror images of each
-//! other taken together.
+//! Columns along the crease: what a point sees of the columns of a strip, with mirror images combined.
 
 use super::view::SeenStrip;
 
-/// Distances that differ by less than this part of the width are the same.
+/// Distances that differ by less than this fraction of the width count as equal.
 const SAME: f64 = 1e-9;
 
-/// Places along the crease and the columns that they look at, symmetric about the middle.
+/// Points along the crease and the columns that they see, symmetric about the middle.
 pub struct Columns {
-    /// Distances along the crease that occur, positive and each once.
+    /// The distinct distances along the crease, positive.
     distances: Vec<f64>,
-    /// For every place and every edge of a column: the number of its distance, and 1 or -1 for the side it
-    /// lies on.
+    /// For every point and column edge: the index of its distance, and 1 or -1 for its side.
     edges: Vec<Vec<(usize, f64)>>,
-    /// Columns of one half, the middle one included.
+    /// Number of columns in one half, including the middle one.
     half: usize,
-    /// What a column's mirror image shines relative to it.
+    /// Light of a column's mirror image relative to its own.
     image: f64,
 }
 
@@ -40,7 +38,7 @@ impl Columns {
         Self { distances, edges, half: count.div_ceil(2), image }
     }
 
-    /// Adds `weight` times the shares of each place's light that land on the columns of `strip`, place by
+    /// Adds `weight` times the shares of each point's light that land on the columns of `strip`: point by
     /// column of one half.
     pub fn add_shares(&self, strip: &SeenStrip, weight: f64, shares: &mut [f64]) {
         let up_to: Vec<f64> = self.distances.iter().map(|y| weight * strip.up_to(*y)).collect();

@@ -1,4 +1,4 @@
-//! Exchange of light between the parts of a bent sheet, and what its facets gather.
+//! Exchange of light between the parts of a bent sheet, and the light that its facets gather.
 
 use nalgebra::{Cholesky, DMatrix, Vector2, Vector3};
 use ndarray::Array2;
@@ -13,45 +13,46 @@ use super::section::{self, Strip};
 use super::seen::{self, Sample};
 use super::view::SeenStrip;
 
-/// Columns of a strip.
+/// Number of columns of a strip.
 const COLUMNS: usize = 5;
-/// Columns of one half, the middle one included: light and sheet are the same at either end of the crease.
+/// Columns in one half, including the middle one: light and sheet are symmetric about the middle of the
+/// crease.
 const HALF: usize = COLUMNS.div_ceil(2);
 /// Gauss points across a strip and along a column.
 const POINTS: [usize; 2] = [3, 2];
 
-/// A place of the sheet across the crease that stands for part of a row of facets.
+/// A point of the sheet's cross-section that represents part of a row of facets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     /// Share of the row.
     pub share: f64,
-    /// Across the crease and out of the opening.
+    /// Coordinates across the crease and out of the opening.
     pub place: Vector2<f64>,
     /// Unit normal there.
     pub normal: Vector2<f64>,
 }
 
-/// What the parts of a bent sheet and its facets see of each other, whatever the light and the albedo.
+/// Form factors among the parts of a bent sheet and to its facets, independent of light and albedo.
 pub struct BentExchange {
     strips: Vec<Strip>,
     /// Area of each patch (strip, then column of one half) together with its mirror image.
     areas: Vec<f64>,
     /// Area times form factor, patch by patch: symmetric.
     exchange: DMatrix<f64>,
-    /// Share of its view that each facet of one half (panel, row, column) has filled with each patch.
+    /// Form factor from each facet of one half (panel, row, column) to each patch.
     gather: DMatrix<f64>,
-    /// What each row of facets of both panels shows of the sheet.
+    /// The points of the sheet visible in each row of facets of both panels.
     rows: Vec<Vec<Seen>>,
-    /// Columns of facets.
+    /// Number of columns of facets.
     cols: usize,
 }
 
 impl BentExchange {
-    /// The exchange of `bent` with the panels and facets of `fold`, seen from far away from the direction
+    /// The exchange of `bent` with the panels and facets of `fold`, seen from far away in the direction
     /// `eye`.
     ///
-    /// The eye decides what the facets show of a crease that is rounded: they divide the flat quadrilateral
-    /// that was clicked, from the bottom of the crease to the outer edge. Coordinates are those of
+    /// The viewpoint decides what the facets show of a rounded crease: they divide the flat quadrilateral
+    /// marked in the picture, from the bottom of the crease to the outer edge. Coordinates are those of
     /// [`Fold::panels`].
     #[must_use]
     pub fn new(bent: &BentFold, fold: &Fold, eye: Vector3<f64>) -> Self {
@@ -88,8 +89,7 @@ impl BentExchange {
         }
     }
 
-    /// Radiance of the facets in parallel light from the direction `sun`, as [`BentFold::facet_radiance`] has
-    /// it.
+    /// Radiance of the facets in parallel light from the direction `sun`, as [`BentFold::facet_radiance`].
     ///
     /// # Errors
     /// [`Error::Numeric`] if light does not leave the fold.
@@ -98,8 +98,9 @@ impl BentExchange {
         self.radiance_in(|_, normal| normal.dot(&sun).max(0.0), albedos)
     }
 
-    /// The same in the light of a lamp in that direction, so far from the `middle` of the sheet (across the
-    /// crease and out of it), where it is as bright as that sun. Places along the crease are as its middle.
+    /// The same for a lamp in that direction, at `distance` from the `middle` of the sheet (across the crease
+    /// and out of it), where it is as bright as that sun. Light does not vary along the crease; it is that at
+    /// the middle.
     ///
     /// # Errors
     /// As [`BentExchange::facet_radiance`].
@@ -119,7 +120,7 @@ impl BentExchange {
         self.radiance_in(lit, albedos)
     }
 
-    /// Radiance of the facets where the direct light on the sheet depends on place and normal.
+    /// Radiance of the facets if direct light on the sheet depends on position and normal.
     fn radiance_in(
         &self,
         lit: impl Fn(&Vector2<f64>, &Vector2<f64>) -> f64,
@@ -147,8 +148,8 @@ impl BentExchange {
         Ok(radiance)
     }
 
-    /// Middles of the patches of one half with their normals, in the order of [`BentExchange::bounced`]'s
-    /// irradiances.
+    /// Middles of the patches of one half with their normals, in the order of the irradiances of
+    /// [`BentExchange::bounced`].
     pub(crate) fn places(&self, width: f64) -> impl Iterator<Item = [Vector3<f64>; 2]> + '_ {
         self.strips.iter().flat_map(move |strip| {
             let middle = strip.at(0.5);
@@ -159,18 +160,18 @@ impl BentExchange {
         })
     }
 
-    /// What each row of facets of both panels shows of the sheet.
+    /// The points of the sheet visible in each row of facets of both panels.
     pub(crate) fn rows(&self) -> &[Vec<Seen>] {
         &self.rows
     }
 
-    /// Patches of one half.
+    /// Number of patches in one half.
     pub(crate) fn patches(&self) -> usize {
         self.areas.len()
     }
 
-    /// Irradiance that the facets of one half (panel, row, column) get from the sheet, from what its patches
-    /// get from outside: a column for each light.
+    /// Irradiance of the facets of one half (panel, row, column) by the sheet, given the external irradiances
+    /// of the patches: a column per light.
     pub(crate) fn bounced(&self, irradiances: &DMatrix<f64>, albedo: f64) -> Result<DMatrix<f64>> {
         let power = DMatrix::from_fn(irradiances.nrows(), irradiances.ncols(), |patch, light| {
             irradiances[(patch, light)] * self.areas[patch]
@@ -178,7 +179,7 @@ impl BentExchange {
         Ok(&self.gather * self.radiosity(&power, albedo)?)
     }
 
-    /// Light leaving every patch, from what light it receives from outside times its area.
+    /// Light leaving every patch, given the external light that it receives, times its area.
     fn radiosity(&self, power: &DMatrix<f64>, albedo: f64) -> Result<DMatrix<f64>> {
         let mut system = -&self.exchange;
         for (n, area) in self.areas.iter().enumerate() {
@@ -191,13 +192,13 @@ impl BentExchange {
     }
 }
 
-/// Width of a column and its mirror image.
+/// Width of a column together with its mirror image.
 fn column_width(column: usize, fold: &Fold) -> f64 {
     let alike = if 2 * column + 1 == COLUMNS { 1.0 } else { 2.0 };
     alike * fold.width() / COLUMNS as f64
 }
 
-/// Area times form factor of all pairs of patches. Of two strips the shallower one looks at the other.
+/// Area times form factor of all pairs of patches, computed from the shallower of two strips.
 fn exchange(strips: &[Strip], fold: &Fold, image: f64) -> DMatrix<f64> {
     let [across, along] = POINTS.map(Rule::gauss_legendre);
     let width = fold.width() / COLUMNS as f64;
@@ -229,7 +230,7 @@ fn exchange(strips: &[Strip], fold: &Fold, image: f64) -> DMatrix<f64> {
     exchange
 }
 
-/// Share of its view that each facet of one half has filled with each patch; samples with their panels.
+/// Form factor from each facet of one half to each patch; samples come with their panels.
 fn gather(strips: &[Strip], samples: &[(usize, Sample)], fold: &Fold, image: f64) -> DMatrix<f64> {
     let (rows, cols) = (fold.facets().rows, fold.facets().cols);
     let half = cols.div_ceil(2);
@@ -251,7 +252,7 @@ fn gather(strips: &[Strip], samples: &[(usize, Sample)], fold: &Fold, image: f64
     gather
 }
 
-/// What the rows of both panels show.
+/// The points visible in the rows of both panels.
 fn rows(panels: &[Vec<Strip>; 2], samples: &[Vec<Sample>; 2], rows: usize) -> Vec<Vec<Seen>> {
     let mut shown = vec![Vec::new(); 2 * rows];
     for (p, samples) in samples.iter().enumerate() {

@@ -1,9 +1,9 @@
-//! Light on a fold whose crease is rounded and whose panels are bowed.
+//! Light on a fold with a rounded crease and bowed panels.
 //!
-//! The sheet is strips along the crease ([`section`](BentExchange)), each divided into columns; they exchange
-//! light by Lambert's formula for polygons, and facets gather it from all of them. This is coarse beside
-//! [`super::wedge`]: what a bend changes is the difference between this of the bent fold and this of an ideal
-//! one, which cancels what strips and columns leave out.
+//! The sheet consists of strips along the crease ([`section`](BentExchange)), each divided into columns. They
+//! exchange light by Lambert's formula for polygons, and facets gather it from all of them. This is coarser
+//! than [`super::wedge`]: only the difference between the bent and an ideal fold is used, in which
+//! discretisation errors cancel.
 
 mod columns;
 mod exchange;
@@ -24,12 +24,11 @@ use crate::geometry::Fold;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BentFold {
     /// Angle between the panels' chords, degrees, in (0, 180]. A chord runs from the virtual crease, where
-    /// panels that are not rounded off meet, to the outer edge.
+    /// the panels would meet without rounding, to the outer edge.
     pub angle_deg: f64,
-    /// Radius of the crease on the lit side, in panel depths: a circle's arc that touches both panels.
+    /// Radius of the crease on the lit side, in panel depths: a circular arc tangent to both panels.
     pub crease_radius: f64,
-    /// Turn of each panel over its depth, degrees, as an arc of a circle: positive where it is hollow on the
-    /// lit side.
+    /// Turn of each panel over its depth, degrees, as a circular arc: positive if hollow on the lit side.
     pub bow_deg: [f64; 2],
 }
 
@@ -42,10 +41,11 @@ impl BentFold {
 
     /// Radiance of the facets of a sheet bent like this, with panels and facets of `fold` (whose angle is not
     /// used), in parallel light from the direction `sun`, seen from far away along the bisecting plane; a
-    /// perfect diffuser that faces the sun has 1.
+    /// perfect diffuser facing the sun has 1.
     ///
     /// # Arguments
-    /// - `sun`: unit vector in the coordinates of [`Fold::panels`]; parts that face away from it get nothing.
+    /// - `sun`: unit vector in the coordinates of [`Fold::panels`]; parts facing away from it receive
+    ///   nothing.
     /// - `albedos`: of the sheet, in (0, 1].
     ///
     /// # Returns

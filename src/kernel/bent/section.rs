@@ -1,4 +1,4 @@
-//! The cross-section of a bent fold: two bowed panels and a rounded crease as strips between points of the
+//! The cross-section of a bent fold: two bowed panels and a rounded crease, as strips between points of the
 //! plane across the crease.
 
 use nalgebra::{Matrix2, Vector2};
@@ -7,13 +7,13 @@ use crate::geometry::Fold;
 
 use super::BentFold;
 
-/// Where strips of a panel end, as shares of what the rounding leaves of its depth.
+/// Strip boundaries of a panel, as fractions of the depth beyond the rounding.
 const EDGES: [f64; 8] = [0.0, 0.02, 0.06, 0.13, 0.25, 0.45, 0.7, 1.0];
-/// Strips on either half of the rounding.
+/// Number of strips on either half of the rounding.
 const ROUNDING: usize = 3;
 /// Roundings and bows below this, in panel depths and radians, count as zero.
 const NONE: f64 = 1e-9;
-/// The rounding ends at this share of a panel at the latest.
+/// The rounding covers at most this fraction of a panel.
 const ROUNDING_MAX: f64 = 0.9;
 
 /// A strip of the sheet, seen along the crease: x across, z out of the opening.
@@ -25,7 +25,7 @@ pub struct Strip {
     pub far: Vector2<f64>,
     /// Unit normal on the lit side.
     pub normal: Vector2<f64>,
-    /// Unit normals of the curve that it stands for, at both ends.
+    /// Unit normals of the curve that it approximates, at both ends.
     pub bent: [Vector2<f64>; 2],
 }
 
@@ -35,25 +35,24 @@ impl Strip {
         (self.far - self.near).norm()
     }
 
-    /// The point at `share` of the way outwards.
+    /// The point at fraction `share` from the near to the far end.
     pub fn at(&self, share: f64) -> Vector2<f64> {
         self.near + share * (self.far - self.near)
     }
 
-    /// The curve's unit normal there.
+    /// The unit normal of the curve there.
     pub fn bent_at(&self, share: f64) -> Vector2<f64> {
         self.bent[0].lerp(&self.bent[1], share).normalize()
     }
 }
 
-/// A panel's arc from the virtual crease, where the panels would meet if nothing were rounded, to its outer
-/// edge.
+/// A panel's arc from the virtual crease, where the panels would meet without rounding, to its outer edge.
 #[derive(Clone, Copy, Debug)]
 struct Arc {
     chord: Vector2<f64>,
     normal: Vector2<f64>,
     depth: f64,
-    /// Turn, radians, over the depth: positive towards the light.
+    /// Turn over the depth, radians: positive towards the light.
     turn: f64,
 }
 
@@ -67,7 +66,7 @@ impl Arc {
         }
     }
 
-    /// Point at `share` of the length.
+    /// Point at fraction `share` of the length.
     fn at(&self, share: f64) -> Vector2<f64> {
         if self.turn.abs() < NONE {
             return share * self.depth * self.chord;
@@ -88,17 +87,17 @@ impl Arc {
     }
 }
 
-/// Where a circle inside the fold touches both panels.
+/// The circle inside the fold that touches both panels.
 struct Rounding {
     radius: f64,
     centre: Vector2<f64>,
-    /// Shares of the arcs at which it touches.
+    /// Points of contact, as fractions of the arcs.
     touches: [f64; 2],
 }
 
 impl Rounding {
-    /// The circle of `radius` that touches both arcs, by Newton's method from the one that touches their
-    /// chords; none in a flat sheet.
+    /// The circle of `radius` tangent to both arcs, by Newton's method from the one tangent to their chords;
+    /// `None` for a flat sheet.
     fn between(arcs: &[Arc; 2], radius: f64, half_angle: f64) -> Option<Self> {
         let mut touches = arcs.map(|arc| radius / half_angle.tan() / arc.depth);
         let centres = |touches: [f64; 2]| {
@@ -114,7 +113,7 @@ impl Rounding {
         Some(Self { radius, centre: centres(touches)[0], touches })
     }
 
-    /// Strips from the bottom to where it touches panel `p`.
+    /// Strips from the bottom to the point of contact with panel `p`.
     fn strips(&self, arc: &Arc, p: usize) -> Vec<Strip> {
         let end = arc.normal(self.touches[p]);
         let turn = end.x.atan2(end.y);
@@ -127,7 +126,7 @@ impl Rounding {
     }
 }
 
-/// Strips of panel 0 and of panel 1, from the bottom of the crease outwards, in the unit of the fold.
+/// Strips of panel 0 and panel 1, from the bottom of the crease outwards, in the unit of the fold.
 pub fn strips(bent: &BentFold, fold: &Fold) -> [Vec<Strip>; 2] {
     let half = bent.angle_deg.to_radians() / 2.0;
     let arcs = [0, 1].map(|p: usize| {
@@ -155,7 +154,7 @@ pub fn strips(bent: &BentFold, fold: &Fold) -> [Vec<Strip>; 2] {
     })
 }
 
-/// -1 for panel 0, on the side of negative x; 1 for panel 1.
+/// -1 for panel 0, which has negative x; 1 for panel 1.
 fn side(p: usize) -> f64 {
     if p == 0 { -1.0 } else { 1.0 }
 }

@@ -1,5 +1,4 @@
-//! How much of its view a point of a sheet that is bent across the crease only has filled with a strip that
-//! runs along it.
+//! Form factors from a point of a sheet, bent only across the crease, to strips along the crease.
 
 use std::f64::consts::TAU;
 
@@ -7,12 +6,12 @@ use nalgebra::Vector2;
 
 use super::section::Strip;
 
-/// Nearer to a point's horizon than this part of a strip's distance counts as on it.
+/// Points closer to the horizon than this fraction of a strip's distance count as on it.
 const HORIZON: f64 = 1e-12;
 
-/// A strip as a point sees it, with what lies below the horizon of either left out.
+/// A strip as seen from a point, clipped at the point's horizon.
 ///
-/// A horizon runs along the crease, as the strips do, so that what it leaves of a strip is a strip.
+/// Horizons and strips run along the crease, so a clipped strip is a strip again.
 pub struct SeenStrip {
     near: Vector2<f64>,
     far: Vector2<f64>,
@@ -20,7 +19,7 @@ pub struct SeenStrip {
 }
 
 impl SeenStrip {
-    /// `strip` from `point` on a strip with unit normal `normal`; none if they do not see each other.
+    /// `strip` from `point` on a strip with unit normal `normal`; `None` if they do not see each other.
     pub fn new(point: Vector2<f64>, normal: Vector2<f64>, strip: &Strip) -> Option<Self> {
         let (mut near, mut far) = (strip.near - point, strip.far - point);
         let least = HORIZON * (near.norm() + far.norm());
@@ -41,12 +40,12 @@ impl SeenStrip {
         Some(Self { near, far, normal })
     }
 
-    /// Share of the light leaving the point that lands on the strip between the point's place along the
-    /// crease and `y` from it, for `y` > 0.
+    /// Share of the light leaving the point that lands on the strip between the point's position along the
+    /// crease and a distance `y` > 0 from it.
     ///
     /// # Source
-    /// Lambert's formula for polygons (*Photometria*, 1760) for a rectangle with two sides along the crease:
-    /// the side in the plane of the point's place along the crease gives nothing.
+    /// Lambert's formula for polygons (*Photometria*, 1760), for a rectangle with two sides along the crease:
+    /// the side in the plane across the crease through the point contributes nothing.
     pub fn up_to(&self, y: f64) -> f64 {
         let (a, b, n) = (self.near, self.far, self.normal);
         let along = |end: Vector2<f64>| {

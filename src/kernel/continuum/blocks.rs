@@ -1,4 +1,4 @@
-//! What functions on one panel give to functions on the other.
+//! Blocks of the exchange matrix between functions on the two panels.
 
 use nalgebra::{DMatrix, DMatrixViewMut};
 use rayon::prelude::*;
@@ -10,8 +10,7 @@ use super::rows::{RowWeights, Rows};
 use super::space::Space;
 use crate::geometry::Fold;
 
-/// What functions on one panel give to functions on the other, from the `table` of their strips along the
-/// crease.
+/// Blocks of the exchange matrix, computed from the `table` of strip pairs along the crease.
 pub(super) struct Blocks<'a> {
     spaces: [&'a Space; 2],
     rows: Rows<'a>,
@@ -19,7 +18,7 @@ pub(super) struct Blocks<'a> {
 }
 
 impl<'a> Blocks<'a> {
-    /// Of functions on panel 0 of `fold` by functions on panel 1.
+    /// For functions on panel 0 of `fold` by functions on panel 1.
     pub(super) fn new(
         fold: &Fold,
         spaces: [&'a Space; 2],
@@ -29,7 +28,7 @@ impl<'a> Blocks<'a> {
         Self { spaces, rows: Rows::new(fold, spaces.map(Space::order), nodes), table }
     }
 
-    /// All of them.
+    /// The full matrix.
     pub(super) fn dense(&self) -> DMatrix<f64> {
         let [of, with] = self.spaces;
         let (height, width) = (of.len(), with.of_strip());
@@ -44,8 +43,8 @@ impl<'a> Blocks<'a> {
         matrix
     }
 
-    /// Those that are not below `negligible`; of panels that are `alike`, the upper triangle with half the
-    /// diagonal.
+    /// The blocks without entries below `negligible`; for panels that are `alike`, the upper triangle with
+    /// half the diagonal.
     pub(super) fn exchange(&self, alike: bool, negligible: f64) -> Exchange {
         let [of, with] = self.spaces;
         let first_column = if alike { 0 } else { of.len() };
@@ -68,14 +67,14 @@ impl<'a> Blocks<'a> {
         }
     }
 
-    /// Sets what strip `i` of panel 0 gets from strip `j` of panel 1.
+    /// Computes the light on strip `i` of panel 0 from strip `j` of panel 1.
     fn set(&self, [i, j]: [usize; 2], mut out: DMatrixViewMut<f64>) {
         let [of, with] = self.spaces;
         let RowWeights { first, weights } = self.rows.weights(of.across.ends[i], with.across.ends[j]);
         let (strips_of, strips_with) = (of.along.ends.len(), with.along.ends.len());
         let (order, of_degree) = (of.order(), of.order() * strips_of * strips_with);
         for d in 0..with.order() {
-            // As many degrees along the crease go with one across it as the other way round.
+            // The same number of degrees along the crease goes with one across it as the other way round.
             let of_pairs = weights.columns(0, order * with.degrees(d));
             let block = self.table.view((d * of_degree, first), (of_degree, weights.nrows())) * of_pairs;
             for (mn, values) in block.column_iter().enumerate() {

@@ -1,32 +1,31 @@
 //! A block of a matrix without its small entries.
 //!
-//! Cells that are far from each other, measured by their size, exchange little but their lowest degrees: of
-//! the entries of a 45° fold that is solved to 1e-8, four of five are below a thousandth of that. Of those
-//! that are left, most are so small that single precision holds them: a product takes as long as it takes to
-//! read them.
+//! Cells that are far apart relative to their size exchange little beyond their lowest degrees: of the
+//! entries of a 45° fold solved to 1e-8, four in five are below a thousandth of that. Most of the others are
+//! small enough for single precision, which pays, as products are limited by reading the matrix.
 
 use nalgebra::DMatrix;
 use pulp::{Arch, Simd, WithSimd};
 
-/// Rows that are kept or left out together: as many numbers as the widest vectors of a processor hold.
+/// Rows kept or dropped together: as many numbers as the widest vectors of a processor hold.
 pub(super) const PIECE: usize = 8;
-/// What rounding to single precision changes a number by at most, relative to it.
+/// Largest relative rounding error of single precision.
 const SINGLE_ROUNDING: f64 = 0.5 * f32::EPSILON as f64;
 
-/// The entries of a block, where they stand in the matrix.
+/// The entries of a block, at their places in the matrix.
 pub(super) struct Compressed {
     exact: Pieces<f64>,
     rounded: Pieces<f32>,
 }
 
-/// What of a matrix A multiplies a vector.
+/// Which product of a matrix A with a vector is computed.
 #[derive(Clone, Copy)]
 pub(super) enum Product {
     /// `A·x`.
     Straight,
     /// `Aᵀ·x`.
     Transposed,
-    /// `(A + Aᵀ)·x`: what is read serves both.
+    /// `(A + Aᵀ)·x`, reading A once.
     Both,
 }
 
@@ -34,24 +33,24 @@ pub(super) enum Product {
 struct Pieces<T> {
     /// The first of the columns.
     first_column: usize,
-    /// The end of each column's pieces.
+    /// The end index of each column's pieces.
     ends: Vec<usize>,
-    /// The first row of every piece; no matrix that fits into memory has more than 2³² rows.
+    /// The first row of every piece; a matrix that fits into memory has at most 2³² rows.
     rows: Vec<u32>,
     values: Vec<[T; PIECE]>,
 }
 
 impl Compressed {
-    /// Those entries of `block` that are not below `negligible`, to which all are rounded; `place`: row and
-    /// column of its first entry.
+    /// The entries of `block` that are not below `negligible`, the accuracy to which all are rounded; `place`
+    /// is the row and column of its first entry.
     pub(super) fn new(block: &DMatrix<f64>, place: [usize; 2], negligible: f64) -> Self {
         let (mut exact, mut rounded) = (Pieces::new(place[1]), Pieces::new(place[1]));
         for column in block.column_iter() {
             for (piece, row) in column.as_slice().chunks(PIECE).zip((place[0]..).step_by(PIECE)) {
                 let mut values = [0.0; PIECE];
                 values[..piece.len()].copy_from_slice(piece);
-                // All are looked at, which takes less time than to stop at the first; what is not a number is
-                // kept, so that it shows.
+                // All entries are checked, which is faster than stopping at the first. NaNs are kept so that
+                // they surface.
                 let below = |limit: f64| values.iter().fold(true, |all, entry| all & (entry.abs() < limit));
                 if !below(negligible) {
                     match below(negligible / SINGLE_ROUNDING) {
@@ -66,10 +65,11 @@ impl Compressed {
         Self { exact, rounded }
     }
 
-    /// Adds this block's share of a product with `x` to `sums`.
+    /// Adds this block's contribution to a product with `x` to `sums`.
     ///
     /// # Panics
-    /// If `x` and `sums` do not go on for [`PIECE`] numbers after the last row, which do not matter.
+    /// If `x` and `sums` do not extend [`PIECE`] numbers beyond the last row; the values there are
+    /// irrelevant.
     pub(super) fn add_product(&self, product: Product, x: &[f64], sums: &mut [f64]) {
         Arch::new().dispatch(AddProduct { block: self, product, x, sums });
     }
@@ -86,7 +86,7 @@ struct AddProduct<'a> {
 impl WithSimd for AddProduct<'_> {
     type Output = ();
 
-    // what is inlined here takes the processor's widest vectors, too; what is called does not
+    // Inlined functions are compiled for the processor's widest vectors; called ones are not.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { block: Compressed { exact, rounded }, product, x, sums } = self;

@@ -1,4 +1,4 @@
-//! Pairs of strips along the crease: the kernel depends on the shift between two points alone.
+//! Pairs of strips along the crease: the kernel depends only on the shift between two points.
 
 use nalgebra::DMatrix;
 
@@ -6,15 +6,14 @@ use super::nodes::Nodes;
 use super::strips::polynomials;
 use crate::kernel::quadrature::{Lagrange, Rule, bernstein_rho};
 
-/// Ratio of the ends of a Gauss panel that is graded towards the kernel's peak at z = 0: it leaves a ρ of
-/// 2.09.
+/// Ratio of the ends of a Gauss panel graded towards the kernel's peak at z = 0, for which ρ is 2.09.
 const PEAK_GRADING: f64 = 8.0;
 
 /// Integrals `∫∫ P_b(x) P_d(y) q³/(q² + (x − y)²)² dx dy` over pairs of strips, for all distances q.
 ///
-/// Between the shifts at which the ends of two strips meet, their overlap is a polynomial of the shift: its
-/// values at a few shifts tell all of it, and the kernel's peak, which takes many more, is integrated against
-/// the polynomials through those few.
+/// Between shifts at which ends of the two strips coincide, their overlap is a polynomial in the shift,
+/// determined by its values at a few shifts. The kernel's peak, which needs many more points, is integrated
+/// against the polynomials through those few.
 pub(super) struct Correlation<'a> {
     orders: [usize; 2],
     nodes: &'a Nodes,
@@ -27,7 +26,7 @@ pub(super) struct Correlation<'a> {
 }
 
 impl<'a> Correlation<'a> {
-    /// Of strips with so many polynomials, at these `distances`, the nearest being the first.
+    /// For strips with these numbers of polynomials, at these `distances`, the smallest first.
     pub(super) fn new(orders: [usize; 2], nodes: &'a Nodes, distances: &'a [f64]) -> Self {
         let points = orders[0] + orders[1];
         let overlap = Rule::gauss_legendre(points);
@@ -41,7 +40,8 @@ impl<'a> Correlation<'a> {
         }
     }
 
-    /// Strips `e` and `f`: distance by pair (b, d), b fast. `mirror` reverses the polynomials of `f`.
+    /// For strips `e` and `f`: distance by pair (b, d), b varying fastest. `mirror` reverses the polynomials
+    /// of `f`.
     pub(super) fn integrals(&self, e: [f64; 2], f: [f64; 2], mirror: bool) -> DMatrix<f64> {
         let mut kinks = [e[0] - f[1], e[0] - f[0], e[1] - f[1], e[1] - f[0]];
         kinks.sort_by(f64::total_cmp);
@@ -85,7 +85,7 @@ impl<'a> Correlation<'a> {
     fn moments(&self, piece: &[f64]) -> DMatrix<f64> {
         let nearest = self.distances[0];
         let (mut shifts, mut weights) = (Vec::new(), Vec::new());
-        // Half the least distance is the width of the kernel's peak.
+        // The width of the kernel's peak is half the least distance.
         for panel in towards_peak(piece[0], piece[1], 0.5 * nearest) {
             let points = self.nodes.points(bernstein_rho(panel, [0.0, nearest]));
             let rule = Rule::kept_legendre(self.overlap.nodes.len().div_ceil(4) + points);
@@ -108,7 +108,7 @@ impl<'a> Correlation<'a> {
     }
 }
 
-/// Cuts `[low, high]` at 0 and, towards 0, in geometric steps down to the width of the peak.
+/// Divides `[low, high]` at 0 and, towards 0, in geometric steps down to the width of the peak.
 fn towards_peak(low: f64, high: f64, peak: f64) -> Vec<[f64; 2]> {
     if low < 0.0 && high > 0.0 {
         return [towards_peak(low, 0.0, peak), towards_peak(0.0, high, peak)].concat();

@@ -1,22 +1,22 @@
-//! Products with the matrix of the exchange: reading it is what takes time, so that half of a symmetric one
-//! is left out, and what is small.
+//! Products with the exchange matrix. Reading it takes most of the time, so half of a symmetric matrix is
+//! omitted, as are small entries.
 
 use rayon::prelude::*;
 
 use super::compressed::{Compressed, PIECE, Product};
 
-/// What panel 0 gives to panel 1, functions of panel 0 by functions of panel 1.
+/// The exchange matrix from panel 1 to panel 0: functions of panel 0 by functions of panel 1.
 pub(super) struct Exchange {
-    /// Numbers of functions of the panels; none where they are alike: the upper triangle with half the
-    /// diagonal is then all there is, which with its transpose is the matrix.
+    /// Numbers of functions on the panels. `None` if the panels are alike: only the upper triangle with half
+    /// the diagonal is stored, and adding its transpose gives the matrix.
     pub(super) unlike: Option<[usize; 2]>,
-    /// The blocks of each strip of panel 1: always the same ones, so that sums do not depend on the number of
-    /// threads. Where panels are unlike, their columns are counted on from the last row.
+    /// The blocks by strip of panel 1, a fixed partition, so that sums do not depend on the number of
+    /// threads. If the panels differ, column numbers continue after those of the rows.
     pub(super) strips: Vec<Vec<Compressed>>,
 }
 
 impl Exchange {
-    /// `out = F·x`: what `panel` gets from function `x` of the other.
+    /// `out = F·x`: the light on `panel` from function `x` of the other.
     pub(super) fn apply(&self, panel: usize, x: &[f64], out: &mut [f64]) {
         match (self.unlike, panel) {
             (None, _) => out.copy_from_slice(&self.product(Product::Both, &[x])[..out.len()]),
@@ -30,7 +30,7 @@ impl Exchange {
         }
     }
 
-    /// What both panels get from functions of each other: `[F·x₁, Fᵀ·x₀]`, for which the matrix is read once.
+    /// The light on both panels from functions of each other, `[F·x₁, Fᵀ·x₀]`, reading the matrix once.
     pub(super) fn apply_both(&self, x: [&[f64]; 2], out: [&mut [f64]; 2]) {
         let [out_0, out_1] = out;
         if self.unlike.is_none() {
@@ -44,7 +44,7 @@ impl Exchange {
         out_1.copy_from_slice(&rest[..out_1.len()]);
     }
 
-    /// The product of all blocks with the parts of a vector, and some numbers beyond.
+    /// The product of all blocks with the concatenated parts of a vector, followed by a few unused numbers.
     fn product(&self, product: Product, x: &[&[f64]]) -> Vec<f64> {
         let x = [&x.concat()[..], &[0.0; PIECE]].concat();
         let add = |strip: &Vec<Compressed>| {
@@ -67,7 +67,7 @@ mod tests {
 
     use super::*;
 
-    /// Two strips of two blocks each, their entries from 1e-6 on; columns are counted on from the `first`.
+    /// Two strips of two blocks each, with their entries from 1e-6; column numbers start at `first`.
     fn strips(matrix: &DMatrix<f64>, first: usize) -> Vec<Vec<Compressed>> {
         let half = matrix.ncols() / 2;
         let block = |i: usize, j: usize| {

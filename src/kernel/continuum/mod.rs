@@ -1,20 +1,19 @@
-//! The bounces between two undivided panels: eqs. (1) to (4) without facets.
+//! Interreflections between two undivided panels: eqs. (1) to (4) without facets.
 //!
 //! One flat patch per facet is 4 % off at the crease of a bright 45° fold, however exact its form factors.
-//! Here the radiosity is a function on the panel instead, a polynomial of both directions on each of a few
+//! Here the radiosity is instead a function on the panel: a polynomial in both directions on each of a few
 //! cells (Galerkin's method, `space`). Cells narrow geometrically towards the crease and its ends, where
-//! light goes as a power of the distance, and in narrow folds towards the outer edges, where it escapes; so a
-//! few more polynomials make the error ten times smaller, wherever that is needed.
+//! light varies as a power of the distance, and in narrow folds towards the outer edges, where it escapes. A
+//! few more polynomials then divide the error by ten, wherever that is needed.
 //!
-//! Facets are read one bounce later: what falls on one is the light that the radiosity throws on it, over its
-//! whole area, in which most of the radiosity's error averages out. A second set of functions takes that up
-//! (`reading`).
+//! Facets are read one bounce later: the radiosity determines the light on their whole area, in which most of
+//! its error averages out. A second set of functions represents that light (`reading`).
 //!
 //! An entry integrates the kernel over two strips along the crease and two across it. Along the crease only
-//! the shift `z = x − y` matters (`correlation`), and the result is a function of the distance q across it
-//! alone (`table`); the integrals across become weights of that function's values (`rows`), and all entries
-//! of two rows are a few matrix products (`blocks`). Of these, those that matter are kept (`compressed`) and
-//! multiplied (`exchange`). Lengths are in units of panel 0's depth.
+//! the shift `z = x − y` matters (`correlation`), and the result depends only on the distance q across it
+//! (`table`); the integrals across become weights of that function's values (`rows`), and all entries of two
+//! rows are a few matrix products (`blocks`). Non-negligible entries are kept (`compressed`) and multiplied
+//! (`exchange`). Lengths are in units of panel 0's depth.
 
 mod blocks;
 mod compressed;
@@ -41,14 +40,13 @@ use self::table::tabulate;
 use crate::geometry::{FacetGrid, Fold};
 use crate::response::PanelOperator;
 
-/// The radiosity operator of a fold, and what its functions throw on the facets.
+/// The radiosity operator of a fold, and the light that its functions throw on the facets.
 pub struct Continuum {
     exchange: Exchange,
     uniform: [Vec<f64>; 2],
     facets: FacetGrid,
     reading: Reading,
-    /// For each panel, the one only where they are alike: function that takes up its light by function of the
-    /// other panel.
+    /// For each panel (only the first if they are alike): receiving function by function of the other panel.
     views: Vec<DMatrix<f64>>,
 }
 
@@ -56,9 +54,9 @@ impl Continuum {
     /// Discretises the exchange between the panels of `fold`.
     ///
     /// # Source
-    /// Deeb et al., eq. (2), as the kernel of the integral equation that eqs. (1) to (4) iterate. Facets are
-    /// read as Sloan, *Improvement by iteration for compact operator equations* (1976), improves Galerkin's
-    /// method.
+    /// Deeb et al., eq. (2), as the kernel of the integral equation iterated by eqs. (1) to (4). Facets are
+    /// read as in the improvement of Galerkin's method by Sloan, *Improvement by iteration for compact
+    /// operator equations* (1976).
     #[must_use]
     pub fn new(fold: &Fold, resolution: &Resolution) -> Self {
         let layout = Layout::new(fold, resolution);
@@ -105,12 +103,12 @@ impl PanelOperator for Continuum {
 
     fn facet_means(&self, panel: usize, x: &[f64]) -> Vec<f64> {
         let FacetGrid { rows, cols } = self.facets;
-        // Of panels that are alike, one stands for both.
+        // One view serves both panels if they are alike.
         let view = &self.views[panel % self.views.len()];
         let light = view * DVectorView::from_slice(x, x.len());
         let means = self.reading.facet_means(panel, light.as_slice());
         let means = DMatrixView::from_slice(&means, cols.div_ceil(2), rows);
-        // Light is even along the crease: its second half is the mirror image of the first.
+        // Light is symmetric along the crease: its second half is the mirror image of the first.
         DMatrix::from_fn(cols, rows, |col, row| means[(col.min(cols - 1 - col), row)]).data.into()
     }
 }
@@ -147,8 +145,8 @@ mod tests {
         }
     }
 
-    /// Facets that are read from polynomials, as there are many, are those that take up the light themselves,
-    /// to half of what the resolution aims at.
+    /// Many facets, which are read from polynomials, agree with few, which receive the light themselves, to
+    /// half of the target error.
     #[test]
     fn many_facets_are_parts_of_few() {
         for (angle_deg, depth1) in [(20.0, 1.0), (45.0, 0.6), (120.0, 1.0)] {

@@ -6,10 +6,10 @@ use crate::kernel::quadrature::{Lagrange, Rule};
 
 /// Length of an interpolation panel in ln q.
 const PANEL: f64 = 1.0;
-/// What a node on such a panel takes off the error: ρ = π + √(π² + 1), as a logarithm.
+/// Logarithm of the factor by which each node on such a panel reduces the error: ρ = π + √(π² + 1).
 const LN_RHO: f64 = 1.86;
 
-/// Distances at which functions of the distance are known.
+/// Distances at which functions of the distance are tabulated.
 pub(super) struct Nodes {
     start: f64,
     panels: usize,
@@ -36,27 +36,27 @@ impl Nodes {
         (0..self.panels).flat_map(on_panel).map(|(u, _)| u.exp()).collect()
     }
 
-    /// Nodes on a panel.
+    /// Number of nodes on a panel.
     pub(super) fn on_panel(&self) -> usize {
         self.rule.nodes.len()
     }
 
-    /// Gauss points that integrate a function whose ellipse of analyticity has this `rho` as well as the
-    /// nodes interpolate.
+    /// Number of Gauss points that integrate a function whose ellipse of analyticity has this `rho` as
+    /// accurately as the nodes interpolate.
     pub(super) fn points(&self, rho: f64) -> usize {
         (self.on_panel() as f64 * LN_RHO / (2.0 * rho.ln())).ceil() as usize
     }
 
-    /// The nodes that stand for the distances between two.
+    /// The nodes needed for distances in this range.
     pub(super) fn between(&self, [nearest, furthest]: [f64; 2]) -> Range<usize> {
         let on = self.on_panel();
-        // A panel to spare at either end, for rounding.
+        // Slightly widened to allow for rounding.
         let panel = |q: f64| (((q.ln() - self.start) / PANEL).max(0.0) as usize).min(self.panels - 1);
         panel(nearest * (1.0 - 1e-9)) * on..(panel(furthest * (1.0 + 1e-9)) + 1) * on
     }
 
-    /// For each distance the first of the nodes between which it lies, and their weights: those of the first
-    /// of them for all distances, then those of the next. Below the nearest, a distance counts as that.
+    /// For each distance the index of the first of its interpolation nodes, and their weights: those of the
+    /// first node for all distances, then those of the next. Distances below the nearest are replaced by it.
     pub(super) fn place(&self, distances: &[f64]) -> (Vec<usize>, Vec<f64>) {
         let place = |q: &f64| {
             let along = ((q.ln() - self.start) / PANEL).max(0.0);

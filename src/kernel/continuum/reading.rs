@@ -1,8 +1,8 @@
-//! Which functions on a panel take up what falls on it, and facet means from them.
+//! Functions that represent the light on a panel, and facet means computed from them.
 //!
-//! A few facets are such functions themselves. Many are more than it takes: polynomials of a few more degrees
-//! than those of the radiosity then take up the light, which is as smooth, and facets are read from them,
-//! across the crease and along it by itself.
+//! If there are few facets, they are these functions themselves. Otherwise polynomials of slightly higher
+//! degrees than those of the radiosity suffice, as the light is equally smooth, and facets are read from
+//! them, separately across the crease and along it.
 
 use nalgebra::{DMatrix, DVectorView};
 
@@ -11,19 +11,19 @@ use super::resolution::Resolution;
 use super::space::Space;
 use crate::geometry::Fold;
 
-/// Degrees beyond those of the radiosity: what the polynomials leave out is then far less than what the
-/// radiosity is off by.
+/// Additional degrees beyond those of the radiosity: truncation then matters far less than the radiosity's
+/// error.
 const MORE_DEGREES: usize = 4;
 
-/// The functions that take up the light on each panel, and how facets are read from them; facets of the first
-/// half of the crease.
+/// The functions that represent the light on each panel, and how facets in the first half of the crease are
+/// read from them.
 pub(super) struct Reading {
     pub(super) spaces: [Space; 2],
-    /// None where the functions are the facets.
+    /// `None` if the functions are the facets.
     pools: Option<[Pool; 2]>,
 }
 
-/// Means over facets of functions of a space.
+/// Means over facets of the functions of a space.
 struct Pool {
     space: Space,
     /// Facet row by function across the crease.
@@ -43,7 +43,7 @@ impl Reading {
         Self { spaces: finer, pools: Some(pools) }
     }
 
-    /// Number of functions that take up the light on a panel.
+    /// Number of functions that represent the light on a panel.
     pub(super) fn len(&self) -> usize {
         self.spaces[0].len().max(self.spaces[1].len())
     }
@@ -52,7 +52,7 @@ impl Reading {
     pub(super) fn facet_means(&self, panel: usize, light: &[f64]) -> Vec<f64> {
         match &self.pools {
             None => {
-                // The function of a facet is as high as makes its square's integral 1.
+                // Facet functions are normalised: the integral of their square is 1.
                 light
                     .iter()
                     .zip(self.spaces[panel].uniform())
@@ -65,14 +65,14 @@ impl Reading {
 }
 
 impl Resolution {
-    /// Unknowns that the larger of a fold's panels takes.
+    /// Number of unknowns on the larger panel of a fold.
     #[must_use]
     pub fn unknowns(&self, fold: &Fold) -> usize {
         let [panel0, panel1] = Layout::new(fold, self).panels;
         panel0.len().max(panel1.len())
     }
 
-    /// Functions that take up the light on the larger of a fold's panels, for its facets.
+    /// Number of functions that represent the light for the facets, on the larger panel of a fold.
     #[must_use]
     pub fn readings(&self, fold: &Fold) -> usize {
         Reading::new(&Layout::new(fold, self), fold).len()

@@ -1,8 +1,8 @@
 //! Across the crease: pairs of strips, one on each panel.
 //!
-//! For a point at distance s the other panel's points are `t = s·(cosθ + sinθ·sinh w)`, at the distance
-//! `q = s·sinθ·cosh w`; in w the kernel's singularities stay `π/2` away from the real axis, however narrow
-//! the fold.
+//! Relative to a point at distance s, the other panel's points are `t = s·(cosθ + sinθ·sinh w)`, at the
+//! distance `q = s·sinθ·cosh w`; in w the kernel's singularities stay `π/2` away from the real axis, however
+//! narrow the fold.
 
 use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -15,21 +15,21 @@ use super::strips::polynomials;
 use crate::geometry::Fold;
 use crate::kernel::quadrature::{Rule, bernstein_rho};
 
-/// Longest Gauss panel in w, which the singularities leave with ρ = 4.4.
+/// Longest Gauss panel in w, for which the singularities leave ρ = 4.4.
 const INNER_PANEL: f64 = 1.5;
-/// Least ρ of a Gauss panel in s.
+/// Minimum ρ of a Gauss panel in s.
 const OUTER_RHO: f64 = 3.0;
-/// Halvings of a strip that ends at the crease, where logarithms of s are small.
+/// Halvings of a strip that ends at the crease, after which terms in s·ln s are small.
 const HALVINGS: usize = 4;
 
 /// Integrals over pairs of strips across the crease of a fold.
 pub(super) struct Rows<'a> {
     sin: f64,
     cos: f64,
-    /// `1 − cosθ`, which would lose digits as a difference when θ is small.
+    /// `1 − cosθ`, computed without cancellation for small θ.
     one_minus_cos: f64,
     nodes: &'a Nodes,
-    /// Polynomials on the strips of either panel.
+    /// Number of polynomials on the strips of each panel.
     orders: [usize; 2],
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Rows<'a> {
 pub(super) struct RowWeights {
     /// The first of the nodes.
     pub(super) first: usize,
-    /// Node by pair of polynomials (m, n), m fast.
+    /// Node by pair of polynomials (m, n), m varying fastest.
     pub(super) weights: DMatrix<f64>,
 }
 
@@ -53,12 +53,12 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The rule for polynomials of one panel's strips times a function whose singularities leave this `rho`.
+    /// The rule for polynomials on one panel's strips times a function whose singularities leave this `rho`.
     fn rule(&self, panel: usize, rho: f64) -> Cow<'static, Rule> {
         Rule::kept_legendre(self.orders[panel].div_ceil(2) + self.nodes.points(rho))
     }
 
-    /// `∫∫ φ_m(s) φ_n(t) sin²θ·s·t/(π q³) f(q) ds dt` over strips `a` and `b` as weights of the values of f
+    /// `∫∫ φ_m(s) φ_n(t) sin²θ·s·t/(π q³) f(q) ds dt` over strips `a` and `b`, as weights of the values of f
     /// at the nodes.
     pub(super) fn weights(&self, a: [f64; 2], b: [f64; 2]) -> RowWeights {
         let [order_a, order_b] = self.orders;
@@ -86,7 +86,7 @@ impl<'a> Rows<'a> {
         RowWeights { first, weights }
     }
 
-    /// The integrals over t for each of the points s: node of a range by n, by point.
+    /// The integrals over t for each of the points s: (node in the range, n) by point.
     fn inner_integrals(&self, points: &[f64], b: [f64; 2], nodes: Range<usize>) -> DMatrix<f64> {
         let (mut t, mut distances, mut factors, mut ends) = (vec![], vec![], vec![], vec![]);
         for s in points {
@@ -102,7 +102,7 @@ impl<'a> Rows<'a> {
                     let (sinh, cosh) = (grown - shrunk, grown + shrunk);
                     t.push((s * (self.cos + self.sin * sinh)).clamp(b[0], b[1]));
                     distances.push(s * self.sin * cosh);
-                    // What is left of sin²θ·s·t/(π q³) dt but for t, where dt = q dw and q = s·sinθ·cosh w.
+                    // The factors of sin²θ·s·t/(π q³) dt other than t, where dt = q dw and q = s·sinθ·cosh w.
                     factors.push(weight / (PI * s * cosh * cosh));
                 }
             }
@@ -123,7 +123,7 @@ impl<'a> Rows<'a> {
                     .zip(at_nodes[p..].iter().step_by(t.len()))
                     .for_each(|(to, from)| *to = *from);
                 let place = firsts[p] - nodes.start;
-                // Columns are so short that nalgebra's update of rank one would take longer.
+                // Columns are so short that nalgebra's rank-one update would be slower.
                 let of_degrees = of_point.as_mut_slice().chunks_exact_mut(nodes.len());
                 for (out, of_b) in of_degrees.zip(&of_b.row(p)) {
                     let out = &mut out[place..place + at_node.len()];
@@ -135,7 +135,7 @@ impl<'a> Rows<'a> {
         integrals
     }
 
-    /// Least and largest distance between points of two strips.
+    /// Smallest and largest distance between points of two strips.
     fn distances(&self, a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
         let q = |s: f64, t: f64| ((s - t).powi(2) + 2.0 * s * t * self.one_minus_cos).sqrt();
         let nearest = |s: f64, other: [f64; 2]| q(s, (s * self.cos).clamp(other[0], other[1]));
@@ -144,12 +144,12 @@ impl<'a> Rows<'a> {
         [near.into_iter().fold(f64::INFINITY, f64::min), far.into_iter().fold(0.0, f64::max)]
     }
 
-    /// Cuts strip `a` where the inner integral over `b` varies, near the ends of `b` and the crease; the ρ
-    /// that its singularities leave each of the pieces.
+    /// Divides strip `a` where the inner integral over `b` varies, near the ends of `b` and the crease;
+    /// returns the pieces with the ρ that the singularities leave each.
     fn pieces(&self, a: [f64; 2], b: [f64; 2]) -> Vec<([f64; 2], f64)> {
         let mut pieces = vec![a];
-        // Towards the crease integrals go as s·ln s, which no polynomial follows: halves of halves make the
-        // rest harmless.
+        // Towards the crease the integrals behave like s·ln s, which no polynomial follows; repeated halving
+        // makes the remainder harmless.
         for _ in 0..if a[0] > 0.0 { 0 } else { HALVINGS } {
             let [low, high] = pieces[0];
             pieces.splice(0..1, [[low, 0.5 * high], [0.5 * high, high]]);

@@ -1,14 +1,14 @@
-//! Functions on a panel: polynomials of both directions on every cell of a grid of strips.
+//! Functions on a panel: polynomials in both directions on every cell of a grid of strips.
 //!
-//! A cell has the polynomials `P_m(s)·P_b(x)` up to a total degree. Products of two high degrees, half of
-//! all, add least to smooth light.
+//! A cell has the polynomials `P_m(s)·P_b(x)` up to a total degree. The products of two high degrees, half of
+//! all, contribute least to smooth light.
 
 use super::strips::Strips;
 
-/// Strips across a panel and along the first half of its crease, with as many polynomials in one direction as
-/// in the other.
+/// Strips across a panel and along the first half of its crease, with equal numbers of polynomials in both
+/// directions.
 ///
-/// Functions are ordered by strip across, degree across, degree along and strip along, the last being the
+/// Functions are ordered by strip across, degree across, degree along and strip along, the last varying
 /// fastest.
 #[derive(Clone, Debug)]
 pub(super) struct Space {
@@ -17,7 +17,7 @@ pub(super) struct Space {
 }
 
 impl Space {
-    /// The same strips with so many degrees more.
+    /// The same strips with `more` additional degrees.
     pub(super) fn with_more_degrees(&self, more: usize) -> Self {
         let [across, along] = [&self.across, &self.along]
             .map(|strips| Strips { ends: strips.ends.clone(), order: strips.order + more });
@@ -34,22 +34,22 @@ impl Space {
         self.first(self.order())
     }
 
-    /// Polynomials in either direction.
+    /// Number of polynomials in either direction.
     pub(super) fn order(&self) -> usize {
         self.across.order
     }
 
-    /// Degrees along the crease of the functions of degree `m` across it.
+    /// Number of degrees along the crease of the functions of degree `m` across it.
     pub(super) fn degrees(&self, m: usize) -> usize {
         self.order() - m
     }
 
-    /// Where the functions of degree `m` across the crease begin among those of a strip.
+    /// Index, within a strip, of the first function of degree `m` across the crease.
     pub(super) fn first(&self, m: usize) -> usize {
         self.along.ends.len() * (0..m).map(|m| self.degrees(m)).sum::<usize>()
     }
 
-    /// Coordinates of the function 1.
+    /// Coordinates of the constant function 1.
     pub(super) fn uniform(&self) -> Vec<f64> {
         let mut one = vec![0.0; self.len()];
         for (of_strip, across) in one.chunks_exact_mut(self.of_strip()).zip(&self.across.ends) {

@@ -5,8 +5,7 @@ use nalgebra::DMatrix;
 use crate::kernel::quadrature::{Rule, legendre_series};
 use crate::solve::dot;
 
-/// Consecutive strips, each with the same number of polynomials: an orthonormal basis of functions across
-/// them.
+/// Consecutive strips, each with the same number of polynomials: together an orthonormal basis.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Strips {
     pub(super) ends: Vec<[f64; 2]>,
@@ -24,8 +23,8 @@ impl Strips {
         self.ends.len() * self.order
     }
 
-    /// Means of the functions over intervals: interval by function, in the order of degree and strip, the
-    /// last being the fastest.
+    /// Means of the functions over intervals: interval by function, ordered by degree and strip, the latter
+    /// varying fastest.
     pub(super) fn means(&self, intervals: &[[f64; 2]]) -> DMatrix<f64> {
         let strips = self.ends.len();
         let mut means = DMatrix::zeros(intervals.len(), self.order * strips);
@@ -46,7 +45,7 @@ impl Strips {
     }
 }
 
-/// Normalised Legendre polynomials of a strip at some points: point by degree, of which there are `order`.
+/// Normalised Legendre polynomials of a strip at these points: point by degree, up to `order` degrees.
 pub(super) fn polynomials(strip: [f64; 2], points: &[f64], order: usize) -> DMatrix<f64> {
     let length = strip[1] - strip[0];
     let places: Vec<_> = points.iter().map(|x| (2.0 * x - strip[0] - strip[1]) / length).collect();
@@ -58,18 +57,18 @@ pub(super) fn polynomials(strip: [f64; 2], points: &[f64], order: usize) -> DMat
     values
 }
 
-/// Edges of strips from `low` to `high`, the first and the last at most as wide as asked for, and each at
-/// most `growth` times as wide as all before it from its end.
+/// Edges of strips from `low` to `high`. The first and last strips are at most this wide, and the distance of
+/// an edge from the end it is graded to is at most `growth` times that of the edge before.
 pub(super) fn graded(low: f64, high: f64, first: f64, last: f64, growth: f64) -> Vec<f64> {
     let middle = match (first < high - low, last < high - low) {
         (_, false) => high,
         (false, true) => low,
-        // A strip is as wide as its distance from the end that it is graded to allows: both do in the middle.
+        // A strip may grow with its distance from the end it is graded to: both gradings meet in the middle.
         (true, true) => 0.5 * (low + high),
     };
     let from = |end: f64, towards: f64, narrowest: f64| {
         let length = (towards - end).abs();
-        // Whole numbers of steps are not to be missed by rounding.
+        // Rounding must not add a step to a whole number of them.
         let steps = ((length / narrowest).ln() / growth.ln() - 1e-9).ceil().max(0.0);
         let ratio = if steps > 0.0 { (length / narrowest).powf(steps.recip()) } else { 1.0 };
         (0..=steps as usize).map(move |k| end + (towards - end) * ratio.powf(k as f64 - steps))

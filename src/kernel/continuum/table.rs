@@ -1,8 +1,8 @@
-//! The integrals of all pairs of strips along the crease, tabulated over the distance across it.
+//! Integrals for all pairs of strips along the crease, tabulated over the distance across it.
 //!
-//! Every pair of rows has a distance between the same two bounds. In ln q the integrals are analytic up to
+//! The distances between all pairs of rows lie within common bounds. In ln q the integrals are analytic up to
 //! `Im ln q = ±π/2`, where the kernel's peak meets the path of integration, so a few Gauss nodes per e-fold
-//! give them all. Times q³ they tend to a constant where q is small.
+//! determine them. Multiplied by q³ they tend to a constant for small q.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -11,10 +11,10 @@ use super::correlation::Correlation;
 use super::nodes::Nodes;
 use super::strips::Strips;
 
-/// Integrals over all pairs of strips on the first half of a crease of this width, mirror images included:
-/// function of `of` and of `with` by node, times q³. The functions are in the order of
-/// [`super::space::Space`]: strip of `of`, degree on `of`, strip of `with`, degree on `with`, the first being
-/// the fastest.
+/// Integrals over all pairs of strips on the first half of a crease of this width, mirror images included,
+/// times q³: pair of functions of `of` and `with`, by node. The functions are in the order of
+/// [`super::space::Space`]: strip of `of`, degree on `of`, strip of `with`, degree on `with`, the first
+/// varying fastest.
 pub(super) fn tabulate(of: &Strips, with: &Strips, width: f64, nodes: &Nodes) -> DMatrix<f64> {
     let distances = nodes.distances();
     let correlation = Correlation::new([of.order, with.order], nodes, &distances);
@@ -23,7 +23,7 @@ pub(super) fn tabulate(of: &Strips, with: &Strips, width: f64, nodes: &Nodes) ->
         let mirror = [width - high, width - low];
         correlation.integrals(e, [low, high], false) + correlation.integrals(e, mirror, true)
     };
-    // Of strips that are alike, what one has to do with another is what that has to do with it.
+    // For identical strips the integrals are symmetric.
     let alike = of == with;
     let pairs: Vec<_> = (0..with.ends.len())
         .flat_map(|f| (0..if alike { f + 1 } else { of.ends.len() }).map(move |e| [e, f]))

@@ -11,19 +11,19 @@ use crate::geometry::{Fold, StandardSky};
 use crate::kernel::bent::BentFold;
 use crate::kernel::environment::{Environment, Surroundings as Part, facet_radiances};
 
-/// Radii of the crease for which light is computed, in panel depths.
+/// Crease radii for which light is computed, in panel depths.
 pub(super) const CREASE_RADII: [f64; 2] = [0.012, 0.03];
-/// Changes of the fold for which light is computed anew: degrees between the panels, as a share of the angle
-/// at most, and bow.
+/// Changes of the fold for which light is recomputed: degrees between the panels, at most a share of the
+/// angle, and bow.
 const ANGLE_DEG: f64 = 3.0;
 const ANGLE_MOST: f64 = 0.15;
 const BOW_DEG: f64 = 3.0;
 
-/// Skies and the ground on a fold that is turned to `sun`, the `zenith` being where somebody stated it, or
-/// where people hold their cameras.
+/// Light of skies and ground on a fold facing `sun`. The `zenith` is as stated, or else follows from the
+/// camera, which people hold upright.
 ///
-/// `even` is what facets have in light that is alike in all directions and gives an open plane 1, facet by
-/// node: what they have in other light is coarse, and off in proportion.
+/// `even` is the exact radiance of the facets in uniform light of irradiance 1 on an open plane, facet by
+/// node. Radiance in other light is coarse and corrected by the same ratio.
 pub fn of(
     fold: &Fold,
     (pose, sun, zenith): (&Pose, Vector3<f64>, Option<Vector3<f64>>),

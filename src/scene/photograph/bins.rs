@@ -1,4 +1,4 @@
-//! Facets pooled to as many as tell what there is to tell: all rows, a few columns.
+//! Facets pooled without loss of information: all rows, a few columns.
 
 use nalgebra::DMatrix;
 use ndarray::Array2;
@@ -9,13 +9,13 @@ use crate::estimate::photograph::parts::{Place, Radiance};
 use crate::forward::FacetValues;
 use crate::geometry::Fold;
 
-/// Most rows and columns of a panel.
+/// Maximum numbers of rows and columns of a panel.
 const ROWS: usize = 10;
 const COLUMNS: usize = 3;
 
-/// Facets that are pooled.
+/// Pooled facets.
 pub struct Bins {
-    /// Numbers of the facets in each.
+    /// Indices of the facets in each bin.
     members: Vec<Vec<usize>>,
     places: Vec<Place>,
     /// Mean values and standard deviations of their noise: bin by channel.
@@ -24,7 +24,7 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// Those of the facets that were measured.
+    /// Bins of the measured facets.
     pub fn new(fold: &Fold, Measured { rgb, sd }: &Measured, pose: &Pose) -> Self {
         let grid = fold.facets();
         let (rows, columns) = (grid.rows.min(ROWS), grid.cols.min(COLUMNS));
@@ -85,17 +85,17 @@ impl Bins {
         &self.places
     }
 
-    /// Mean values: bin by channel; none if no light was measured.
+    /// Mean values: bin by channel; `None` if no light was measured.
     pub fn values(&self) -> Option<&DMatrix<f64>> {
         self.values.iter().any(|value| *value > 0.0).then_some(&self.values)
     }
 
-    /// Standard deviations of their noise.
+    /// Standard deviations of the noise of the means.
     pub fn sd(&self) -> &DMatrix<f64> {
         &self.sd
     }
 
-    /// Means of what is known of every facet, facet by node.
+    /// Bin means of values that are known for every facet, facet by node.
     pub fn pool(&self, of_facets: &Array2<f64>) -> Radiance {
         DMatrix::from_fn(self.members.len(), of_facets.ncols(), |bin, node| {
             let facets = &self.members[bin];

@@ -1,4 +1,4 @@
-//! How the camera of a scene sees light of any spectrum, and how its curves may be off.
+//! Response of a scene's camera to light of any spectrum, and the errors of its sensitivities.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -21,7 +21,7 @@ pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, priors: &Priors) -
     let sky = sky.as_ref().map_or_else(|| sun.clone(), |sky| DVector::from_column_slice(&sky.power));
     let daylight = vectors(grid)?;
     let white = sensitivities.tr_mul(&sun);
-    // a camera that stands in for another is off by what such cameras were measured to be
+    // a camera that stands in for another has the measured errors of such cameras
     let sensitivity_sd = camera
         .stands_in
         .as_ref()
@@ -53,8 +53,8 @@ pub fn vectors(grid: &WavelengthGrid) -> Result<DMatrix<f64>> {
     Ok(DMatrix::from_columns(&[s0?, s1?, s2?].map(DVector::from_vec)))
 }
 
-/// Errors of curves that are predicted: those of cameras whose sensitivities are known; none in builds that
-/// do not know them.
+/// Errors of predicted sensitivities: those found for cameras with known sensitivities; none in builds
+/// without these.
 fn of_predicted(
     sensitivities: &[Vec<f64>],
     grid: &WavelengthGrid,
@@ -66,8 +66,8 @@ fn of_predicted(
     Ok(errors.map(|(channel, error)| (channel, peak * error.component_mul(&widths))).collect())
 }
 
-/// Smooth errors of the curves. A curve of fewer than ten samples that see anything is that of a narrow
-/// filter, and is right.
+/// Smooth errors of the sensitivities. A channel with fewer than ten samples that see anything belongs to a
+/// narrow filter and is assumed exact.
 fn errors(
     sensitivities: &[Vec<f64>],
     wavelengths_nm: &[f64],

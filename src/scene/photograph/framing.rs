@@ -1,4 +1,4 @@
-//! Where the camera stood, and where the facets are in its picture.
+//! Position of the camera, and of the facets in its picture.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -6,12 +6,12 @@ use crate::error::Result;
 use crate::geometry::Fold;
 use crate::image::{Framing, Homography, Point, camera_pose};
 
-/// A camera before a fold, as the corners of the panels tell it.
+/// A camera before a fold, located by the corners of the panels.
 pub struct Pose {
-    /// Place of the camera in the fold's coordinates (across, along the crease, out of the opening), in the
-    /// fold's unit.
+    /// Position of the camera in the fold's coordinates (across, along the crease, out of the opening) and
+    /// unit.
     pub eye: Vector3<f64>,
-    /// The direction of space, square to the view, that goes up in the picture.
+    /// The direction in space, perpendicular to the view, that points up in the picture.
     up: Vector3<f64>,
     outlines: [Homography; 2],
     centre: Point,
@@ -19,10 +19,10 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// That of a photograph; none if the corners do not tell it.
+    /// From a photograph; `None` if the corners do not determine the pose.
     ///
     /// # Errors
-    /// [`crate::Error::Corners`] if the corners are not those of panels.
+    /// [`crate::Error::Corners`] if the corners do not bound panels.
     pub fn of(framing: &Framing, fold: &Fold) -> Result<Option<Self>> {
         let [Some(panel0), Some(panel1)] = framing.panels else { return Ok(None) };
         let panels = [panel0, panel1];
@@ -38,15 +38,15 @@ impl Pose {
         }))
     }
 
-    /// Square of the distance from the picture's centre, that of a corner being 1, of a place on a panel:
-    /// shares of its width and depth.
+    /// Squared distance of a point on a panel from the picture's centre, relative to that of the picture's
+    /// corners. The point is given as fractions of the panel's width and depth.
     pub fn off_centre(&self, panel: usize, along: f64, depth: f64) -> f64 {
         let Point { x, y } = self.outlines[panel].to_image(along, depth);
         ((x - self.centre.x).powi(2) + (y - self.centre.y).powi(2)) / self.half_diagonal.powi(2)
     }
 
-    /// The zenith, if the sun stands at this sine of its height, on the side of the one that was stated, or
-    /// of what is up for the camera.
+    /// The zenith, if the sine of the sun's elevation is `sun_height`: on the side of the stated zenith or,
+    /// without one, of the camera's upward direction.
     pub fn up(&self, sun: Vector3<f64>, sun_height: f64, stated: Option<Vector3<f64>>) -> Vector3<f64> {
         let up = stated.unwrap_or(self.up);
         let sideways = (up - up.dot(&sun) * sun).try_normalize(1e-9).unwrap_or_else(Vector3::y);
@@ -54,7 +54,7 @@ impl Pose {
     }
 }
 
-/// The direction square to the view that rises most in the picture.
+/// The direction perpendicular to the view that rises most steeply in the picture.
 fn upwards(fold: &Fold, panels: &[[Point; 4]; 2], eye: Vector3<f64>) -> Vector3<f64> {
     let corners = fold.panels().map(|panel| panel.corners);
     let seen: Vec<_> = (0..8).map(|n| (corners[n / 4][n % 4], panels[n / 4][n % 4])).collect();

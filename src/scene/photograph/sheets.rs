@@ -1,4 +1,4 @@
-//! Kinds of sheets on the fold of a photograph, before its camera.
+//! Sheet models on the fold of a photograph, seen from its camera.
 
 use std::sync::LazyLock;
 
@@ -12,12 +12,12 @@ use crate::geometry::Fold;
 use crate::sheet::{Family, Shape, measured, measured_names};
 use crate::transport::departures;
 
-/// Each of the measured sheets described by the others from what its facets show: by how much its 45:0
-/// reflectance is off in all bands (6.3 to 6.7 %, left out in turn on two folds), and, of the six that were
-/// photographed, how far each band is off beside that.
+/// Errors of the 45:0 reflectance of a measured sheet inferred from its facets by means of the others: common
+/// to all bands (6.3 to 6.7 %, each left out in turn on two folds), and in addition in each band (for the six
+/// that were photographed).
 const INSTRUMENT: Instrument = Instrument { shared: 0.065, own: 0.06 };
 
-/// The sheets that are known, seen on this fold, but for a measured one of that name.
+/// The known sheets as seen on this fold, without the measured one named `left_out`.
 pub fn of(
     fold: &Fold,
     [sun, eye]: [Vector3<f64>; 2],
@@ -45,19 +45,19 @@ pub fn of(
     })
 }
 
-/// The family in the middle of all nodes.
+/// The family at the middle of all nodes.
 const MIDDLE: usize = 13;
 
-/// Families at the nodes.
+/// Number of families at the nodes.
 const FAMILIES: usize = 27;
 
-/// Shapes that formulas give: of the families that differ, then those with sheen.
+/// Shapes given by formulas: the distinct families, then those with sheen.
 static FORMULAS: LazyLock<Vec<Shape>> = LazyLock::new(|| {
     let distinct = (0..FAMILIES).filter(|n| representative(*n) == *n).map(family);
     distinct.chain(SHEEN.map(|sheen| Family { sheen, ..family(MIDDLE) })).map(Shape::from).collect()
 });
 
-/// The family at a node: strength and roughness of the surface, roughness of the body, the last fastest.
+/// The family at a node: specular weight, specular roughness and body roughness, the last varying fastest.
 fn family(n: usize) -> Family {
     let nodes = FAMILY_NODES;
     Family {
@@ -68,7 +68,7 @@ fn family(n: usize) -> Family {
     }
 }
 
-/// Without gloss its roughness makes no difference.
+/// Without a specular surface its roughness makes no difference.
 fn representative(n: usize) -> usize {
     if n < 9 { n % 3 } else { n }
 }

@@ -1,26 +1,26 @@
-//! Matrices of a bispectrometer Labsphere BFC-450, as its program exports them: lines on the sample, then a
-//! table in tabs that begins with `r:c:`, emission in rows, excitation in columns, nm.
+//! Matrices of the bispectrometer Labsphere BFC-450 as exported by its program: lines about the sample, then
+//! a tab-separated table that begins with `r:c:`, with emission in rows and excitation in columns, nm.
 
 use super::csv;
 use super::place::Place;
 use super::table::Table;
 use crate::error::Result;
 
-/// What stands above the wavelengths of emission, before those of excitation.
+/// The cell above the wavelengths of emission and before those of excitation.
 const CORNER: &str = "r:c:";
 
-/// Whether a text is such a file.
+/// True if a text is such a file.
 pub(super) fn is_matrix(text: &str) -> bool {
     text.lines().any(|line| line.starts_with(CORNER))
 }
 
-/// The columns of the matrix, called after their excitation.
+/// The columns of the matrix, named after their excitation.
 ///
 /// # Errors
-/// [`crate::Error::Table`] with the line and column that is wrong.
+/// [`crate::Error::Table`] with the offending line and column.
 pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
     let above = text.lines().take_while(|line| !line.starts_with(CORNER)).count();
-    // the line of excitations ends in a tab
+    // the line of excitation wavelengths ends in a tab
     let table: Vec<_> = text.lines().skip(above).map(str::trim_end).collect();
     csv::parse_from(Place { path, line: above + 1 }, &table.join("\n"))
 }

@@ -1,8 +1,8 @@
 //! CGATS.17 tables with spectra: one row per sample, one column per wavelength.
 //!
-//! Argyll CMS's `.sp` and `.ti3` (`SPEC_400`, scaled by `SPECTRAL_NORM`), and what i1Profiler
-//! (`SPECTRAL_NM400`), ColorPort and ProfileMaker (`nm400`) export. Other columns are passed over, and tables
-//! without spectra, of which a file may have several. (ANSI CGATS.17-2009, and "Argyll CMS file formats".)
+//! Argyll CMS's `.sp` and `.ti3` (`SPEC_400`, scaled by `SPECTRAL_NORM`), and exports of i1Profiler
+//! (`SPECTRAL_NM400`), ColorPort and ProfileMaker (`nm400`). Other columns are ignored, as are tables without
+//! spectra; a file may have several tables. (ANSI CGATS.17-2009, and "Argyll CMS file formats".)
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -16,17 +16,17 @@ use crate::spectrum::Spectrum;
 use crate::spectrum::grid::check_rising;
 
 pub(super) const BEGIN_FORMAT: &str = "BEGIN_DATA_FORMAT";
-/// What may stand before the wavelength in a column's name, in capitals; the longest first.
+/// Prefixes of the wavelength in a column's name, in capitals; the longest first.
 const PREFIXES: [&str; 6] = ["SPECTRAL_NM_", "SPECTRAL_NM", "SPECTRAL_", "SPEC_", "NM_", "NM"];
-/// Columns that name samples, the preferred one first.
+/// Columns that name samples, in order of preference.
 const NAMES: [&str; 4] = ["SAMPLE_ID", "SAMPLEID", "SAMPLE_NAME", "SAMPLE_LOC"];
-/// Argyll rounds the wavelengths in its columns' names.
+/// Argyll rounds the wavelengths in column names.
 const ROUNDED_NM: f64 = 0.51;
 
-/// The spectra of a CGATS text, named after their `SAMPLE_ID`.
+/// The spectra of a CGATS text, named by their `SAMPLE_ID`.
 ///
 /// # Errors
-/// [`crate::Error::Table`] with the line that is wrong.
+/// [`crate::Error::Table`] with the offending line.
 pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
     let mut lines = text.lines().zip(1..).map(|(text, line)| (text, Place { path, line }));
     let (mut spectra, mut stated, mut without_spectra) = (Vec::new(), Vec::new(), None);
@@ -65,10 +65,10 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
     }
 }
 
-/// A line, and where it is.
+/// A line and its place.
 type Line<'a> = (&'a str, Place<'a>);
 
-/// The rows up to `END_DATA`, and where that is: lines as they stand, whose words take many times their
+/// The rows up to `END_DATA`, and its place. Rows remain lines, as their words would take many times the
 /// memory.
 fn rows<'a>(
     lines: &mut impl Iterator<Item = Line<'a>>,
@@ -87,18 +87,18 @@ fn rows<'a>(
     Err(end.fails("END_DATA is missing: the file was cut", "export it again"))
 }
 
-/// What stands before the data.
+/// The part of a table before its data.
 struct Header<'a> {
     /// Value and line of each keyword.
     keywords: HashMap<String, (String, Place<'a>)>,
     /// Names of the columns, in capitals.
     fields: Vec<String>,
-    /// Where the data begin.
+    /// Where the data begins.
     at: Place<'a>,
 }
 
 impl<'a> Header<'a> {
-    /// That of the next table, if another one follows.
+    /// The header of the next table, if another one follows.
     fn read(lines: &mut impl Iterator<Item = Line<'a>>, path: &'a str) -> Option<Self> {
         let mut header = Self { keywords: HashMap::new(), fields: Vec::new(), at: Place { path, line: 1 } };
         let mut in_format = false;
@@ -120,7 +120,7 @@ impl<'a> Header<'a> {
         None
     }
 
-    /// What it says of all spectra: what is divided by its norm is in fractions.
+    /// What the header states about all spectra: values divided by a norm are fractions.
     fn stated(&self) -> Stated {
         let scale =
             if self.keywords.contains_key("SPECTRAL_NORM") { Scale::Fraction } else { Scale::Unstated };
@@ -128,13 +128,13 @@ impl<'a> Header<'a> {
         Stated { scale, quantity }
     }
 
-    /// A keyword's number, if it is there.
+    /// The number of a keyword, if it is present.
     fn number(&self, key: &str) -> Result<Option<(f64, Place<'a>)>> {
         let Some((value, at)) = self.keywords.get(key) else { return Ok(None) };
         at.number(key, value).map(|number| Some((number, *at)))
     }
 
-    /// Checks a count that the file gives, if it does.
+    /// Checks a count if the file gives it.
     fn agrees(&self, key: &str, count: usize, what: &str) -> Result<()> {
         match self.keywords.get(key) {
             Some((stated, at)) if stated.parse() != Ok(count) => Err(at.fails(
@@ -146,7 +146,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// Which columns hold what.
+/// Assignment of the columns.
 struct Columns {
     name: Option<usize>,
     values: Vec<usize>,
@@ -155,7 +155,7 @@ struct Columns {
 }
 
 impl Columns {
-    /// None if there are none of spectra.
+    /// `None` if no column has spectral values.
     fn new(header: &Header) -> Result<Option<Self>> {
         let named =
             header.fields.iter().enumerate().filter_map(|(at, field)| Some((at, wavelength_nm(field)?)));
@@ -178,7 +178,7 @@ impl Columns {
         Ok(Some(Self { name, values, wavelengths_nm: nm.into(), norm }))
     }
 
-    /// The spectrum of a row; `number` counts rows from 1.
+    /// The spectrum of a row; `number` is the row number, from 1.
     fn spectrum(&self, header: &Header, row: &[String], number: usize, at: Place) -> Result<Spectrum> {
         let count = header.fields.len();
         if row.len() != count {
@@ -192,14 +192,14 @@ impl Columns {
     }
 }
 
-/// The wavelength in a column's name.
+/// The wavelength in a column name.
 fn wavelength_nm(field: &str) -> Option<f64> {
     let digits = PREFIXES.iter().find_map(|prefix| field.strip_prefix(prefix))?;
     digits.parse().ok().filter(|nm| (100.0..=3000.0).contains(nm))
 }
 
-/// Wavelengths by `SPECTRAL_BANDS`, `SPECTRAL_START_NM` and `SPECTRAL_END_NM`, which have the digits that
-/// names lack.
+/// Wavelengths from `SPECTRAL_BANDS`, `SPECTRAL_START_NM` and `SPECTRAL_END_NM`, which have the digits
+/// missing from names.
 fn spectral_nm(header: &Header, named_nm: &[f64]) -> Result<Option<Vec<f64>>> {
     header.agrees("SPECTRAL_BANDS", named_nm.len(), "columns of spectra")?;
     let ends = (header.number("SPECTRAL_START_NM")?, header.number("SPECTRAL_END_NM")?);
@@ -216,7 +216,7 @@ fn spectral_nm(header: &Header, named_nm: &[f64]) -> Result<Option<Vec<f64>>> {
     }
 }
 
-/// The words of a line: separated by blanks unless quoted; `#` begins a comment.
+/// The words of a line, separated by blanks unless quoted; `#` begins a comment.
 fn words(line: &str) -> Vec<String> {
     let (mut words, mut word, mut quoted) = (Vec::new(), None::<String>, false);
     for letter in line.chars() {
@@ -234,7 +234,7 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// A CGATS text of these columns, in percent as Argyll has reflectances: rows of `SAMPLE_ID` and values.
+/// A CGATS text with these columns, in percent like Argyll's reflectances: rows of `SAMPLE_ID` and values.
 pub(super) fn text(wavelengths_nm: &[f64], rows: &[(String, &[f64])]) -> String {
     let columns: Vec<String> = wavelengths_nm.iter().map(|nm| format!("SPEC_{nm:03.0}")).collect();
     let (count, first_nm) = (columns.len(), wavelengths_nm[0]);

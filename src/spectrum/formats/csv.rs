@@ -1,9 +1,9 @@
 //! Tables of spectra in CSV: a header row, the wavelength in nm first, then one column per spectrum.
 //!
-//! Any grid will do, in nm, micrometres or ångström; cells are separated by commas, semicolons or tabs, or as
-//! a first line `sep=;` says. A column `red_sd` beside `red` is its standard deviation and left out, as are
-//! row numbers before the wavelengths. The first column needs no name, and a row of units may follow the
-//! names. Quoted cells and blank lines at the end are accepted.
+//! Any grid is accepted, in nm, micrometres or ångström. Cells are separated by commas, semicolons or tabs,
+//! or as declared by a first line `sep=;`. A column `red_sd` next to `red` is its standard deviation and
+//! omitted, as are row numbers before the wavelengths. The first column needs no name, and a row of units may
+//! follow the names. Quoted cells and blank lines at the end are accepted.
 
 use std::collections::HashSet;
 
@@ -16,26 +16,27 @@ use crate::error::Result;
 use crate::message::is_formula;
 use crate::spectrum::Spectrum;
 
-/// Ending of the column beside `red` that has the standard deviation of `red`.
+/// Ending of the column with the standard deviation of `red`: `red_sd`.
 pub(super) const SD_ENDING: &str = "_sd";
-/// Last words of such columns, in lower case.
+/// Last words of such column names, in lower case.
 const DEVIATIONS: [&str; 7] = ["sd", "std", "stdev", "stddev", "stderr", "sigma", "uncertainty"];
 
-/// What may separate cells. A comma stands last: in the others' tables it is a decimal comma.
+/// Possible cell separators. The comma is last: in tables with other separators it is a decimal comma.
 const SEPARATORS: [u8; 3] = [b'\t', b';', b','];
 
-/// What a spreadsheet has before a text that it should take for nothing else.
+/// Prefix by which a spreadsheet marks a cell as text.
 const LITERAL: char = '\'';
 
-/// The spectra of a CSV text whose lines end in `\n`, named after their columns; `path` is for the errors.
+/// The spectra of a CSV text whose lines end in `\n`, named after their columns; `path` is for error
+/// messages.
 ///
 /// # Errors
-/// [`crate::Error::Table`] with the line and column that is wrong.
+/// [`crate::Error::Table`] with the offending line and column.
 pub(in crate::spectrum) fn parse(path: &str, text: &str) -> Result<Table> {
     parse_from(Place { path, line: 1 }, text)
 }
 
-/// The same of a text that begins at a line of its file.
+/// The same for a text that begins at a given line of its file.
 pub(super) fn parse_from(Place { path, line }: Place, text: &str) -> Result<Table> {
     let text = text.trim_end();
     let (first_line, separator, text) = match declared_separator(text) {
@@ -88,7 +89,7 @@ pub(super) fn parse_from(Place { path, line }: Place, text: &str) -> Result<Tabl
     Ok(Table { stated, notes: notes.into_iter().flatten().map(str::to_owned).collect(), ..table })
 }
 
-/// The separator that a first line such as `sep=;` says, as spreadsheets have it, and the lines below.
+/// The separator declared by a first line such as `sep=;`, as in spreadsheets, and the lines below it.
 fn declared_separator(text: &str) -> Option<(u8, &str)> {
     let (first, below) = text.split_once('\n')?;
     let first = first.trim_matches('"').to_ascii_lowercase();
@@ -98,7 +99,7 @@ fn declared_separator(text: &str) -> Option<(u8, &str)> {
     }
 }
 
-/// The first separator that divides the header and the row below it into equally many cells, two or more; if
+/// The first separator that divides the header and the next row into equally many cells, two or more; if
 /// there is none, the first that divides the header.
 fn separator(text: &str) -> u8 {
     let divides = |separator: &u8| {
@@ -116,7 +117,7 @@ fn records(text: &str, separator: u8) -> impl Iterator<Item = csv::Result<String
     builder.from_reader(text.as_bytes()).into_records()
 }
 
-/// The rows of a text, each with its line, of which the first is `start`.
+/// The rows of a text, each with its line, counted from `start`.
 fn rows<'a>(
     start: Place<'a>,
     text: &'a str,
@@ -127,7 +128,7 @@ fn rows<'a>(
         let record = record.map_err(|error| at.fails(error.to_string(), "save it as CSV in UTF-8"))?;
         let position = record.position();
         at.line = position.map_or(at.line, |position| start.line - 1 + position.line() as usize);
-        // the reader passes over blank lines, of which the first is where the record seems to begin
+        // the reader skips blank lines, the first of which seems to be the start of the record
         if position.is_some_and(|position| text[position.byte() as usize..].starts_with('\n')) {
             return Err(at.fails("a blank line", "delete it"));
         }
@@ -140,13 +141,13 @@ fn rows<'a>(
     })
 }
 
-/// Whether a column has the standard deviation of another one, or of the only other one.
+/// True if a column holds the standard deviation of another one, or of the only other one.
 fn is_deviation(name: &str, known: &HashSet<&str>) -> bool {
     deviation_of(name).is_some_and(|of| known.contains(of) || of.is_empty() && known.len() == 2)
 }
 
-/// The name of that whose standard deviation a column of this name may have: `red` of `red_sd`, `Red std`,
-/// `red (uncertainty)`.
+/// The name of the column whose standard deviation a column of this name may hold: `red` for `red_sd`,
+/// `Red std`, `red (uncertainty)`.
 pub(super) fn deviation_of(name: &str) -> Option<&str> {
     let name = name.trim_end_matches([')', ']']);
     let is_end = |letter: char| !letter.is_alphanumeric();
@@ -159,23 +160,23 @@ pub(super) fn literal(name: &str) -> String {
     if is_misread(name) { format!("{LITERAL}{name}") } else { name.to_owned() }
 }
 
-/// The name in a cell that [`literal`] may have made.
+/// The name in a cell that may have been made by [`literal`].
 fn name(cell: &str) -> &str {
     cell.strip_prefix(LITERAL).filter(|name| is_misread(name)).unwrap_or(cell)
 }
 
-/// Whether a name begins as a formula does, or says a unit; marks before it do not count.
+/// True if a name begins like a formula or states a unit, ignoring marks before it.
 fn is_misread(name: &str) -> bool {
     let name = name.trim_start_matches(LITERAL);
     is_formula(name) || units::scale(name) != Scale::Unstated
 }
 
-/// Whether a row has the units of the columns above it: that of wavelengths, and no number.
+/// True if a row holds the units of the columns above it: one unit of wavelength, and no number.
 fn is_of_units(row: &StringRecord) -> bool {
     cells(row).any(units::is_of_wavelengths) && cells(row).all(|cell| finite(cell).is_none())
 }
 
-/// The column of wavelengths: the first one, or that behind row numbers or a column without a name.
+/// The column of wavelengths: the first, or the one after row numbers or after a column without a name.
 fn wavelength_column(names: &[&str], columns: &[Vec<f64>]) -> usize {
     if units::is_of_wavelengths(names[0]) {
         return 0;
@@ -188,13 +189,13 @@ fn wavelength_column(names: &[&str], columns: &[Vec<f64>]) -> usize {
     let called = names.iter().skip(1).position(|name| units::is_of_wavelengths(name)).map(|at| at + 1);
     match called {
         Some(at) if is_numbered || names[0].is_empty() => at,
-        // not just any numbers: those of a spectrum are smaller
+        // not for arbitrary numbers: spectral values are smaller
         None if is_numbered && names.len() > 2 && columns[1].iter().all(|nm| *nm >= 100.0) => 1,
         _ => 0,
     }
 }
 
-/// The cells of a row; quotes after a space are still there.
+/// The cells of a row without quotes, which the reader leaves after a space.
 fn cells(row: &StringRecord) -> impl Iterator<Item = &str> {
     row.iter().map(|cell| cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).unwrap_or(cell))
 }
@@ -212,7 +213,7 @@ fn column_names<'a>(header: &'a StringRecord, at: &Place) -> Result<Vec<&'a str>
     }
     let mut seen = HashSet::new();
     for (cell, column) in cells(header).zip(1..) {
-        // the first column's name is that of the wavelengths, which may have none
+        // the first column holds the wavelengths and may be unnamed
         let is_nameless = cell.is_empty() && column > 1;
         if is_nameless || !seen.insert(cell) {
             let problem = format!("column {column} has no name of its own ('{cell}')");
@@ -239,10 +240,9 @@ fn read_row(
     Ok(())
 }
 
-/// What a table writes before decimals: a point or a comma, but not both, since one of them may separate
-/// thousands.
+/// The decimal mark of a table, a point or a comma, but not both, since one of them may separate thousands.
 struct DecimalMarks {
-    /// Not where commas separate cells: in quotes they separate thousands.
+    /// False if commas separate cells: within quotes they then separate thousands.
     comma_allowed: bool,
     found: Option<char>,
 }
@@ -264,7 +264,7 @@ impl DecimalMarks {
             );
         }
         match mark {
-            // what is no number either way is shown as it stands
+            // text that is not a number either way is quoted as it stands
             ',' => at.number(column, &cell.replacen(',', ".", 1)).or_else(|_| at.number(column, cell)),
             _ => at.number(column, cell),
         }

@@ -1,7 +1,7 @@
-//! Files of spectra: one file per format, chosen here by ending and content.
+//! Files of spectra: one module per format, selected here by ending and content.
 //!
-//! Readers give a [`Table`]: spectra in nm, with what had to be converted. JSON is the stream's affair: its
-//! reader is handed in.
+//! Readers return a [`Table`]: spectra in nm, with notes on conversions. JSON belongs to the stream, which
+//! passes in its reader.
 
 mod bfc;
 mod cgats;
@@ -28,17 +28,17 @@ use crate::message::printable;
 use place::Place;
 use table::MAX_SPECTRA;
 
-/// Endings of the files that are read.
+/// Endings of files that can be read.
 pub(super) const ENDINGS: [&str; 6] = ["csv", "sp", "ti3", "txt", "spdx", "json"];
-/// No measured set is near it: a larger file is not a table of spectra.
+/// Far above any measured set: a larger file is not a table of spectra.
 const MAX_BYTES: u64 = 64 << 20;
-/// Reads the spectra of a JSON text; the path is for the errors.
+/// Reads the spectra of a JSON text; the path is for error messages.
 pub type JsonReader = fn(path: &str, text: &str) -> Result<Table>;
 
-/// Reads the spectra of a file: CSV, CGATS, IES TM-27 or, by `json`, JSON.
+/// Reads the spectra of a file: CSV, CGATS, IES TM-27 or, by means of `json`, JSON.
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be read, [`Error::Table`] with the line that is wrong, or as `json`.
+/// [`Error::File`] if it cannot be read, [`Error::Table`] with the offending line, or as `json`.
 pub(super) fn read(path: &str, json: JsonReader) -> Result<Table> {
     let Text { text, is_unicode } = Text::decode(&read_bytes(path)?).map_err(|form| no_table(path, &form))?;
     let not_unicode = || Place { path, line: 1 }.fails("not UTF-8 text", "save it as CSV in UTF-8");
@@ -48,7 +48,7 @@ pub(super) fn read(path: &str, json: JsonReader) -> Result<Table> {
         tm27::parse(path, &text)
     } else if has_ending(path, &["sp", "ti3"]) || text.lines().any(|line| line.trim() == cgats::BEGIN_FORMAT)
     {
-        // names may be in any encoding, numbers are in all of them the same
+        // names may be in any encoding; digits are the same in all of them
         cgats::parse(path, &text)
     } else if bfc::is_matrix(&text) {
         bfc::parse(path, &text)
@@ -77,20 +77,20 @@ fn read_bytes(path: &str) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// That a file is something else than text.
+/// The error for a file that is not text.
 fn no_table(path: &str, form: &Form) -> Error {
     const EXPORT: &str = "save the table as CSV in UTF-8";
     let remedy = form.way_out().map_or(EXPORT.to_owned(), |way_out| format!("{way_out}, or {EXPORT}"));
     Place { path, line: 1 }.fails(format!("the file is {}", form.name), remedy)
 }
 
-/// Whether a file's name ends in one of these, in any case.
+/// True if a file name ends in one of these, in any case.
 pub(super) fn has_ending(path: &str, endings: &[&str]) -> bool {
     let found = Path::new(path).extension();
     found.is_some_and(|found| endings.iter().any(|ending| found.eq_ignore_ascii_case(ending)))
 }
 
-/// Says that JSON is not read here.
+/// Reports that JSON is not read here.
 ///
 /// # Errors
 /// Always.

@@ -1,4 +1,4 @@
-//! Where in a file something is wrong, and numbers as files have them.
+//! Places of errors in files, and numbers as written in files.
 
 use crate::error::{Error, Result};
 

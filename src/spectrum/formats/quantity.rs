@@ -1,20 +1,20 @@
-//! What files say their spectra are: `SpectralQuantity` of IES TM-27, `units` of rawtoaces, `MEAS_TYPE` of
-//! Argyll CMS.
+//! What files state their spectra to be: `SpectralQuantity` of IES TM-27, `units` of rawtoaces, `MEAS_TYPE`
+//! of Argyll CMS.
 
 use crate::spectrum::names::What;
 
-/// What a spectrum is a spectrum of, as far as a file says.
+/// The quantity of a spectrum, as stated by a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
     Reflectance,
     Transmittance,
     Absorptance,
-    /// The power of a light: flux, irradiance and what is like them.
+    /// The power of a light: flux, irradiance and the like.
     Power,
     Sensitivity,
 }
 
-/// Parts of the words that quantities are called by, in lower case.
+/// Parts of words that denote quantities, in lower case.
 const WORDS: [(&str, Quantity); 18] = [
     ("reflect", Quantity::Reflectance),
     ("r-factor", Quantity::Reflectance),
@@ -37,7 +37,7 @@ const WORDS: [(&str, Quantity); 18] = [
 ];
 
 impl Quantity {
-    /// By what a file calls it; none if that may be anything, as `relative` and `other` may.
+    /// From the name in a file; `None` if that may be anything, such as `relative` and `other`.
     pub fn called(text: &str) -> Option<Self> {
         let text = text.to_lowercase();
         WORDS.iter().find(|(word, _)| text.contains(word)).map(|(_, quantity)| *quantity)
@@ -66,7 +66,7 @@ impl Quantity {
 mod tests {
     use super::*;
 
-    /// All that the schemas of TM-27-20 and rawtoaces 1.0.0 list.
+    /// All quantities in the schemas of TM-27-20 and rawtoaces 1.0.0.
     #[test]
     fn the_quantities_of_the_schemas_are_told_apart() {
         for (words, want) in [

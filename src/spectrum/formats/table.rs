@@ -1,4 +1,4 @@
-//! The spectra of a file, and what it states about them.
+//! The spectra of a file, and what the file states about them.
 
 use std::sync::Arc;
 
@@ -9,34 +9,34 @@ use crate::spectrum::Spectrum;
 use crate::spectrum::channels::in_order;
 use crate::spectrum::names::What;
 
-/// The largest set known here has 1269 spectra.
+/// The largest known set has 1269 spectra.
 pub(super) const MAX_SPECTRA: usize = 10_000;
-/// Sums and products of numbers up to this one stay finite.
+/// Sums and products of numbers up to this remain finite.
 const LARGEST: f64 = 1e30;
 
 /// The spectra of a file.
 #[derive(Debug)]
 pub struct Table {
     pub(super) spectra: Vec<Spectrum>,
-    /// What the file states about each.
+    /// What the file states about each spectrum.
     pub(super) stated: Vec<Stated>,
-    /// What was converted.
+    /// Notes on conversions.
     pub(super) notes: Vec<String>,
 }
 
 /// What a file states about a spectrum.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stated {
-    /// In what it is written if it is a reflectance.
+    /// Unit of the values, if it is a reflectance.
     pub(super) scale: Scale,
     pub(super) quantity: Option<Quantity>,
 }
 
 impl Table {
-    /// A table of spectra in nm, of which the file says nothing else.
+    /// A table of spectra in nm about which the file states nothing else.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] if a number is larger than any measured one.
+    /// [`Error::Spectrum`] if a number is too large to be a measurement.
     pub fn new(spectra: Vec<Spectrum>) -> Result<Self> {
         for spectrum in &spectra {
             if let Some(value) = spectrum.values().iter().find(|value| value.abs() > LARGEST) {
@@ -48,17 +48,17 @@ impl Table {
         Ok(Self { stated: vec![Stated::default(); spectra.len()], spectra, notes: Vec::new() })
     }
 
-    /// The same table of spectra that the file calls this: `reflectance`, `irradiance`.
+    /// The same table, whose quantity the file states: `reflectance`, `irradiance`.
     #[must_use]
     pub fn called(mut self, quantity: &str) -> Self {
         self.stated.iter_mut().for_each(|stated| stated.quantity = Quantity::called(quantity));
         self
     }
 
-    /// Checks that the file says nothing else of its spectra, or of one of them, than that they are `what`.
+    /// Checks that the file does not state its spectra, or the one named, to be anything but `what`.
     ///
     /// # Errors
-    /// [`Error::Spectrum`] with what they are.
+    /// [`Error::Spectrum`] with the quantity stated.
     pub(in crate::spectrum) fn check_quantity(
         &self,
         path: &str,
@@ -80,8 +80,8 @@ impl Table {
         }
     }
 
-    /// The same table with the spectra as reflectances in fractions; `percent` is whether those of which the
-    /// file does not say it are in percent, if that is known.
+    /// The same table with the spectra as reflectances in fractions. `percent`, if known, says whether
+    /// spectra whose unit the file does not state are in percent.
     pub(in crate::spectrum) fn in_fractions(mut self, path: &str, percent: Option<bool>) -> Result<Self> {
         let scales: Vec<_> = self.stated.iter().map(|stated| stated.scale).collect();
         let percent = units::percent(path, &self.spectra, &scales, percent)?;
@@ -94,14 +94,14 @@ impl Table {
         Ok(self)
     }
 
-    /// The same table with the spectra as channels of a camera, in their order.
+    /// The same table with the spectra as channels of a camera, in order.
     pub(in crate::spectrum) fn into_channels(mut self, path: &str) -> Result<Self> {
         let (spectra, notes) = in_order(path, &self.spectra)?;
         self.notes.extend(notes);
         Ok(Self { spectra, ..self })
     }
 
-    /// The spectra, each with a note of what was converted.
+    /// The spectra, each with a note on conversions.
     pub(in crate::spectrum) fn spectra(self, path: &str) -> Vec<Spectrum> {
         let note = (!self.notes.is_empty()).then(|| Arc::from(format!("{path}: {}", self.notes.join(", "))));
         self.spectra.into_iter().map(|spectrum| spectrum.noted(note.as_ref())).collect()

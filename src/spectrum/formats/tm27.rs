@@ -1,8 +1,9 @@
 //! IES TM-27: one spectrum as XML (`.spdx`).
 //!
-//! ANSI/IES TM-27-14 and TM-27-20, "IES Standard Format for the Electronic Transfer of Spectral Data". It has
-//! one spectrum and the header of one product; files of several, which it does not provide for, are read all
-//! the same. Entities and document types are refused, so that no small file becomes a large one.
+//! ANSI/IES TM-27-14 and TM-27-20, "IES Standard Format for the Electronic Transfer of Spectral Data". The
+//! format has one spectrum and the header of one product; files with several, which it does not provide for,
+//! are read all the same. Entities and document types are refused, so that a small file cannot expand into a
+//! large one.
 
 use std::fmt::Write;
 
@@ -18,16 +19,16 @@ use crate::spectrum::Spectrum;
 
 /// More nodes than any spectrum has: a tree takes many times the memory of its text.
 const MAX_NODES: u32 = 1_000_000;
-/// Elements within elements: the standard has three, and a parser that calls itself must not run out of
+/// Maximum nesting of elements: the standard has three levels, and the recursive parser must not run out of
 /// stack.
 const MAX_DEPTH: usize = 64;
-/// Attributes of an element: the standard has two, and the parser compares each with all others.
+/// Maximum number of attributes: the standard has two, and the parser compares each with all others.
 const MAX_ATTRIBUTES: usize = 100;
 
-/// The spectrum of a TM-27 text; several are called by their number.
+/// The spectrum of a TM-27 text; several are named by their number.
 ///
 /// # Errors
-/// [`crate::Error::Table`] with the line that is wrong.
+/// [`crate::Error::Table`] with the offending line.
 pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
     let at = |line| Place { path, line };
     if let Some((line, problem)) = overgrown(text) {
@@ -60,7 +61,7 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
 fn distribution<'a>(name: String, block: Node, place: impl Fn(Node) -> Place<'a>) -> Result<Spectrum> {
     let (mut wavelengths, mut values) = (Vec::new(), Vec::new());
     for data in children(block, "SpectralData") {
-        // where an element is takes as long as to read the text up to it, so that only errors ask
+        // locating an element means reading the text up to it, so this is done only for errors
         let number = |name: &str, text: Option<&str>| {
             let text = text.unwrap_or("").trim();
             finite(text).map_or_else(|| place(data).number(name, text), Ok)
@@ -81,14 +82,14 @@ fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = 
     node.children().filter(move |child| child.tag_name().name() == name)
 }
 
-/// The line, if any, on which elements lie within too many others, or have too many attributes; and which of
-/// them.
+/// The first line, if any, on which elements are nested too deeply or have too many attributes, with the
+/// problem.
 fn overgrown(text: &str) -> Option<(usize, String)> {
     let mut depth = 0_usize;
     let opens = |tag: &str| {
         !tag.starts_with(['/', '!', '?']) && !tag.split('>').next().is_some_and(|tag| tag.ends_with('/'))
     };
-    // a value is in quotes behind a sign of equality, and holds no '<'
+    // a value is in quotes after an equals sign, and contains no '<'
     let attributes = |tag: &str| {
         tag.split('=').skip(1).filter(|behind| behind.trim_start().starts_with(['"', '\''])).count()
     };
@@ -111,7 +112,7 @@ fn overgrown(text: &str) -> Option<(usize, String)> {
     None
 }
 
-/// A reflectance as TM-27-14; `created` is the date, as `2026-01-31T12:00:00Z`.
+/// A reflectance as TM-27-14; `created` is the date, such as `2026-01-31T12:00:00Z`.
 pub(super) fn text(name: &str, created: &str, wavelengths_nm: &[f64], reflectance: &[f64]) -> String {
     let mut data = String::new();
     for (nm, value) in wavelengths_nm.iter().zip(reflectance) {

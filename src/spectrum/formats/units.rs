@@ -1,4 +1,4 @@
-//! Units of files that may not say theirs: nm, micrometres or ångström, fractions or percent.
+//! Units of files that may not state them: nm, micrometres or ångström, fractions or percent.
 
 use super::place::Place;
 use crate::error::Result;
@@ -6,7 +6,7 @@ use crate::spectrum::Spectrum;
 use crate::spectrum::names::words;
 use crate::spectrum::quantities::bad;
 
-/// The units in which wavelengths are written.
+/// Units of wavelength in files.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Unit {
     Nanometres,
@@ -14,13 +14,13 @@ enum Unit {
     Angstroms,
 }
 
-/// Wavelengths as a file has them, the first in line `first_line`, in nm; and a note if they were in another
-/// unit.
+/// Converts the wavelengths of a file, the first of which is in line `first_line`, to nm; adds a note if they
+/// were in another unit.
 ///
-/// `header` may name the unit; if not, it is known by the size of the numbers.
+/// `header` may name the unit; otherwise it is inferred from the size of the numbers.
 ///
 /// # Errors
-/// [`crate::Error::Table`] if numbers are not wavelengths, contradict the header or do not rise.
+/// [`crate::Error::Table`] if numbers are not wavelengths, contradict the header or do not increase.
 pub(super) fn to_nm(
     at: Place,
     header: &str,
@@ -49,7 +49,7 @@ pub(super) fn to_nm(
 }
 
 impl Unit {
-    /// What is done to wavelengths in it.
+    /// Note on the conversion of wavelengths in this unit.
     fn note(self) -> Option<&'static str> {
         match self {
             Self::Nanometres => None,
@@ -66,7 +66,7 @@ impl Unit {
                 return Err(at.fails(problem, "give all in nm, or head them um"));
             }
             Self::Nanometres => (value, "nm", "give nm, such as 400 to 700"),
-            // 0.57 um are 570 nm, and not a rounding error less
+            // 0.57 um is exactly 570 nm, without a rounding error
             Self::Micrometres => (
                 (value * 1e9).round() / 1e6,
                 "micrometres",
@@ -86,7 +86,7 @@ impl Unit {
     }
 }
 
-/// Whether a wavelength is about that of light in micrometres.
+/// True if a wavelength is of the size of light's in micrometres.
 fn looks_small(value: f64) -> bool {
     (0.1..10.0).contains(&value)
 }
@@ -103,14 +103,13 @@ fn unit(header: &str) -> Option<Unit> {
     })
 }
 
-/// Whether the name of a column says that it holds wavelengths.
+/// True if the name of a column says that it holds wavelengths.
 pub(super) fn is_of_wavelengths(column: &str) -> bool {
     const NAMES: [&str; 6] = ["wavelength", "wavelengths", "wl", "lambda", "\u{3bb}", "wavelen"];
     unit(column).is_some() || words(column).any(|word| NAMES.contains(&word.as_str()))
 }
 
-/// Whether the name of a column says that it holds what else spectra are plotted over: frequency, photon
-/// energy, wavenumber.
+/// True if the name of a column denotes another spectral axis: frequency, photon energy, wavenumber.
 fn is_other_axis(column: &str) -> bool {
     const NAMES: [&str; 8] = ["thz", "ghz", "hz", "ev", "frequency", "energy", "wavenumber", "wavenumbers"];
     let per_cm = column.to_lowercase().replace([' ', '^'], "");
@@ -118,20 +117,20 @@ fn is_other_axis(column: &str) -> bool {
     is_wavenumber || words(column).any(|word| NAMES.contains(&word.as_str()))
 }
 
-/// In what reflectances are written.
+/// Unit of reflectances.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Scale {
-    /// Nobody says: numbers tell, if they can.
+    /// Not stated: inferred from the numbers, if possible.
     #[default]
     Unstated,
     Fraction,
     Percent,
-    /// The name has a percent sign that may be part of it.
+    /// The name has a percent sign that may be a part of it.
     Unclear,
 }
 
-/// What the name of a column says: `R [%]`, `Sample1 %` and `reflectance_percent` are in percent, `50% grey`
-/// is a name, and `grey 50%` may be either.
+/// The unit stated by the name of a column: `R [%]`, `Sample1 %` and `reflectance_percent` are in percent,
+/// `50% grey` is just a name, and `grey 50%` may be either.
 pub(super) fn scale(column: &str) -> Scale {
     if words(column).any(|word| word == "percent" || word == "pct") {
         return Scale::Percent;
@@ -142,22 +141,22 @@ pub(super) fn scale(column: &str) -> Scale {
     match after.chars().any(char::is_alphanumeric) {
         _ if !is_number => Scale::Percent,
         true => Scale::Unstated,
-        // `Sample 1 %` is numbered
+        // `Sample 1 %` is a numbered sample
         false if number != before => Scale::Percent,
         false => Scale::Unclear,
     }
 }
 
-/// Largest number that may be a fraction badly scaled rather than percent.
+/// Largest number that may be a badly scaled fraction rather than percent.
 const FRACTION_MAX: f64 = 2.0;
-/// Largest number that can be a reflectance in percent, fluorescence included.
+/// Largest possible reflectance in percent, including fluorescence.
 const PERCENT_MAX: f64 = 200.0;
 
-/// Which of the reflectances of a file are in percent: what the file says of each, else what is `stated` for
-/// all, else all of them if one has a value above 2.
+/// Which reflectances of a file are in percent: as the file states for each, else as `stated` for all, else
+/// all of them if one has a value above 2.
 ///
 /// # Errors
-/// [`crate::Error::Spectrum`] if that leaves it open.
+/// [`crate::Error::Spectrum`] if the unit remains ambiguous.
 pub(super) fn percent(
     path: &str,
     spectra: &[Spectrum],
@@ -169,7 +168,7 @@ pub(super) fn percent(
     let peak = open().flat_map(|(spectrum, _)| spectrum.values()).copied().fold(f64::NEG_INFINITY, f64::max);
     let is_percent = match stated {
         Some(stated) => stated,
-        // where some say percent the others are fractions
+        // if some are stated to be percent, the others are fractions
         None if scales.contains(&Scale::Percent) => false,
         None => peak > FRACTION_MAX && peak <= PERCENT_MAX,
     };

@@ -11,10 +11,10 @@ use crate::error::{Error, Result};
 use crate::files::Saved;
 use crate::message::printable;
 
-/// A reflectance as it was measured.
+/// A measured reflectance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// Wavelengths, nm.
     pub wavelengths_nm: Vec<f64>,
@@ -24,14 +24,15 @@ pub struct Measured {
     pub reflectance_sd: Option<Vec<f64>>,
 }
 
-/// Writes reflectances as the file's ending says, whole or not at all: `.csv`, one column per sample and
-/// beside it that of its standard deviation (`red`, `red_sd`), before names that a spreadsheet would take for
-/// a formula a `'`; CGATS `.sp` as Argyll CMS reads it, in percent; IES TM-27-14 `.spdx`, for one sample.
+/// Writes reflectances, complete or not at all, in the format of the file's ending: `.csv` with one column
+/// per sample followed by that of its standard deviation (`red`, `red_sd`), and a `'` before names that a
+/// spreadsheet would take for a formula; CGATS `.sp` as read by Argyll CMS, in percent; IES TM-27-14 `.spdx`
+/// for one sample.
 ///
 /// # Errors
-/// [`Error::Usage`] if the ending is another or `.spdx` should hold several; [`Error::Spectrum`] if there is
-/// none, or if wavelengths differ or are uneven in a format that has one step for all; [`Error::File`] if it
-/// cannot be written.
+/// [`Error::Usage`] for other endings; [`Error::Spectrum`] if there is no sample, several for `.spdx`, or if
+/// wavelengths differ, or are uneven in a format with one step for all; [`Error::File`] if the file cannot be
+/// written.
 ///
 /// # Example
 /// ```
@@ -72,7 +73,7 @@ enum Format {
     Tm27,
 }
 
-/// The format that a file's ending asks for.
+/// The format selected by a file's ending.
 fn format(path: &Path) -> Result<Format> {
     let path = path.to_string_lossy();
     let known = [("csv", Format::Csv), ("sp", Format::Cgats), ("spdx", Format::Tm27)];
@@ -94,7 +95,7 @@ fn unfit(path: &Path, problem: impl Into<String>, remedy: &str) -> Error {
     Error::Spectrum { name, problem: problem.into(), remedy: remedy.to_owned() }
 }
 
-/// Wavelengths that all samples share.
+/// The wavelengths shared by all samples.
 fn common_nm<'a>(path: &Path, samples: &'a [Measured]) -> Result<&'a [f64]> {
     let nm = &samples[0].wavelengths_nm;
     match samples.iter().find(|sample| sample.wavelengths_nm != *nm) {
@@ -106,8 +107,8 @@ fn common_nm<'a>(path: &Path, samples: &'a [Measured]) -> Result<&'a [f64]> {
     }
 }
 
-/// Names that no other sample or its standard deviation has, with control characters escaped and without
-/// those `unfit` for the format.
+/// Names that no other sample or its standard deviation has, with control characters escaped and letters
+/// `unfit` for the format replaced.
 fn names(samples: &[Measured], unfit: &str) -> Vec<String> {
     let mut taken = HashSet::new();
     let mut unique = |sample: &Measured| {
@@ -157,7 +158,7 @@ fn cgats(path: &Path, samples: &[Measured]) -> Result<String> {
     Ok(cgats::text(nm, &rows))
 }
 
-/// The date and time now, as `2026-01-31T12:00:00Z`.
+/// The current date and time, as `2026-01-31T12:00:00Z`.
 fn now() -> String {
     iso_8601(SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()))
 }
@@ -168,7 +169,7 @@ fn iso_8601(seconds: u64) -> String {
     let (era, day_of_era) = (days / 146_097, days % 146_097);
     let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
     let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    // months from March on, so that the leap day is the year's last
+    // months counted from March, so that the leap day is the last of the year
     let month = (5 * day_of_year + 2) / 153;
     let (day, month, next) = (day_of_year - (153 * month + 2) / 5 + 1, (month + 2) % 12 + 1, month >= 10);
     let year = 400 * era + year_of_era + u64::from(next);
