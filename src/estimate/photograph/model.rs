@@ -155,7 +155,8 @@ impl<'a> PhotographModel<'a> {
     }
 
     /// The terms for an albedo, including emission: a sheet that emits looks like one that does not in light
-    /// that is (1 + f / albedo) times as strong. Of light from behind, f is proportional to the albedo's square.
+    /// that is (1 + f / albedo) times as strong. For light from behind f is proportional to the albedo's
+    /// square.
     fn terms(&self, w: &DVector<f64>, albedo: &[f64]) -> Terms {
         let mut terms = self.reflected_terms(albedo);
         if let Some((sent, power)) = self.sent(w) {
@@ -457,8 +458,8 @@ fn curve_errors(Parts { eye, .. }: &Parts) -> DMatrix<f64> {
     DMatrix::from_iterator(eye.wavelengths_nm.len(), eye.errors.len(), errors)
 }
 
-/// Factor by which light seems stronger to a sheet of an albedo that emits a fraction f of white times a power
-/// of the albedo, and its derivative by albedo.
+/// Factor by which light seems stronger to a sheet of an albedo that emits a fraction f of white times a
+/// power of the albedo, and its derivative by albedo.
 fn of_albedo(albedo: f64, f: f64, power: i32) -> (f64, f64) {
     let (from, power) = (albedo.max(DARKEST), power - 1);
     let slope = f64::from(power) * f * from.powi(power - 1);
