@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a change of the estimator or the prior does, in a few minutes, as one table on standard output.
 
-    loop.py TOOLS SHARED [--pulls]        TOOLS: folder of the tools; SHARED: folder of `train`, `real`, `materials`, `photos` and `data`
+    loop.py TOOLS SHARED [--pulls]        TOOLS: folder of the tools; SHARED: folder of `train`, `real` and the other sets
 
 Photographs with the default options (`vestimate --fit auto`), then simulated samples of two charts, exposure known. Count, RMSE (mean, median,
 worst), per cent of true values within one and two standard deviations, how many estimates are called good, processor's ms of an estimate.
@@ -51,6 +51,9 @@ SETS = [
     ("real, one effect", of_real, "real/one_*.json", []),
     ("real, more", of_real, "real/more/*.json", []),
     ("real, pairs", of_real, "real/pairs/*.json", []),
+    ("other daylight", of_real, "sky/*.json", []),
+    ("coloured grounds", of_real, "ground/*.json", []),
+    ("brightened sheets", of_real, "fluorescence/photos/*.json", []),
     ("materials, exposure known", of_material, "materials/*.json", ["--exposure", "1"]),
     ("materials, exposure free", of_material, "materials/*.json", ["--exposure", "free"]),
     ("ideal folds", of_photo, "photos/*.json", []),

@@ -81,7 +81,8 @@ impl Known {
         let fold = self.left_out.iter().fold(fold, |fold, name| fold.leaving_out(name));
         let parts =
             fold.parts(&picture)?.map_err(|why| Error::Numeric(format!("{}: {why}", self.sample.id())))?;
-        let mut sheet = photograph::estimate(&[parts], &self.prior)?;
+        let parts = [parts];
+        let mut sheet = photograph::estimate(&parts, &self.prior)?;
         let estimate = sheet.photographs.remove(0).in_stated_light(&self.wavelengths_nm);
         let sd = estimate.reflectance_sd().unwrap();
         let off = |(band, truth): &(usize, f64)| (estimate.reflectance[*band] - truth, sd[*band]);

@@ -10,7 +10,7 @@ use super::emission::{Emission, Fall, Sent};
 use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
 use super::prior::Prior;
-use crate::solve::posterior::{Linearised, Model, information};
+use crate::solve::posterior::{Linearised, Model};
 
 /// Reflectance at which the spread of spectra is half of what their logits imply: the surface of a dark sheet
 /// reflects some light of all wavelengths, whatever is beneath. Between 0.003 and 0.01 the value matters less
@@ -166,7 +166,7 @@ impl SpectrumModel for Facets<'_> {
         }
         slopes.row_mut(place_of_exposure).copy_from(&whitened(&of_exposure, self.gaussian).row(0));
         // The covariance is S(I + JᵀJ)⁻¹Sᵀ, where S are these derivatives.
-        let spread = information(&at.jacobian)?.l_dirty().solve_lower_triangular(&slopes.transpose())?;
+        let spread = at.information()?.l_dirty().solve_lower_triangular(&slopes.transpose())?;
         let rows = spread.nrows();
         let mut spread = spread.insert_row(rows, 0.0);
         spread[(rows, place_of_exposure)] = exposure.sd;
@@ -238,7 +238,7 @@ impl Model for Facets<'_> {
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
         let ByLogit { residuals, jacobian, second } = self.linearised(w);
-        Linearised { residuals, jacobian: whitened(&jacobian, self.gaussian), second }
+        Linearised::new(residuals, whitened(&jacobian, self.gaussian), second)
     }
 
     fn curvature(&self, at: &Second, multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {

@@ -157,11 +157,13 @@ impl<'a> Inference<'a> {
             stated: StatedScene { shown: Some(shown), ..parts.stated },
             ..parts.clone()
         });
-        let mut real = photograph::estimate(slice::from_ref(lit.as_ref().unwrap_or(parts)), self.prior)?;
-        let real = real.photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
+        let SheetEstimate { mut photographs, modes, .. } =
+            photograph::estimate(slice::from_ref(lit.as_ref().unwrap_or(parts)), self.prior)?;
+        let real = photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
         let day = real.day.map(|found| found.day);
-        let rival =
-            self.other_lights.and_then(|others| light::rival_in_photograph(parts, day, others, self.prior));
+        let rival = self
+            .other_lights
+            .and_then(|others| light::rival_in_photograph(parts, (day, &modes), others, self.prior));
         doubts.splice(0..0, self.doubt_of_light(rival));
         if !photograph.by_chart {
             doubts.extend(other_exposure(facets.exposure, &real));
@@ -264,12 +266,15 @@ impl<'a> Inference<'a> {
 ///
 /// # Errors
 /// [`Error::Field`] if they show several sheets, [`Error::Numeric`] if facets are not finite.
-pub fn of_one_sheet(photographs: &[Parts], names: &[String], prior: &Prior) -> Result<SheetEstimate> {
-    let estimate = |all: &[Parts]| photograph::estimate_usual(all, prior);
-    let together = estimate(photographs)?;
+pub fn of_one_sheet<'a>(
+    photographs: &'a [Parts],
+    names: &[String],
+    prior: &Prior,
+) -> Result<SheetEstimate<'a>> {
+    let together = photograph::estimate_usual(photographs, prior)?;
     let mut apart = 0.0;
     for one in photographs {
-        apart += estimate(slice::from_ref(one))?.ln_evidence;
+        apart += photograph::estimate_usual(slice::from_ref(one), prior)?.ln_evidence;
     }
     let more = apart - together.ln_evidence;
     if more > LN_SEVERAL {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::posterior::{Model, Solution, cost, gauss_newton};
+use super::posterior::{Model, Solution, cost};
 
 /// At a mode, predicts how much more probable the data become if the model has one more degree of freedom.
 ///
@@ -21,7 +21,7 @@ impl<'a> ScoreTest<'a> {
     #[must_use]
     pub fn at<S>(solution: &'a Solution<S>, tempering: f64) -> Option<Self> {
         let (weight, at) = (tempering.powi(-2), &solution.at);
-        let information = Cholesky::new(gauss_newton(&at.jacobian, weight))?;
+        let information = Cholesky::new(at.gauss_newton(weight))?;
         Some(Self { weight, residuals: &at.residuals, jacobian: &at.jacobian, information })
     }
 
@@ -60,7 +60,7 @@ fn ln_gain(slope: f64, bend: f64, least: f64) -> f64 {
 pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, tempering: f64) -> Option<f64> {
     let (at, weight) = (model.linearise(w), tempering.powi(-2));
     let descent = weight * at.jacobian.tr_mul(&at.residuals) - w;
-    let step = Cholesky::new(gauss_newton(&at.jacobian, weight))?.solve(&descent);
+    let step = Cholesky::new(at.gauss_newton(weight))?.solve(&descent);
     Some(cost(weight, w, &at.residuals) - descent.dot(&step))
 }
 
@@ -85,7 +85,7 @@ mod tests {
 
         fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
             let jacobian = DMatrix::from_column_slice(2, 1, &[2.0, 1.0]);
-            Linearised { residuals: self.residuals(w), jacobian, second: () }
+            Linearised::new(self.residuals(w), jacobian, ())
         }
 
         fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {

@@ -12,6 +12,7 @@
 //! ## Reference
 //! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 10.3, 18.1 and 18.3.
 
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
@@ -72,8 +73,43 @@ pub struct Linearised<S> {
     pub residuals: DVector<f64>,
     /// Derivatives of the model: residual by unknown.
     pub jacobian: DMatrix<f64>,
-    /// Input of [`Model::curvature`].
+    /// For [`Model::curvature`].
     pub second: S,
+    /// The lower triangle of `JᵀJ`, computed once it is asked for.
+    squares: OnceCell<DMatrix<f64>>,
+}
+
+impl<S> Linearised<S> {
+    /// A model with these residuals and derivatives.
+    #[must_use]
+    pub fn new(residuals: DVector<f64>, jacobian: DMatrix<f64>, second: S) -> Self {
+        Self { residuals, jacobian, second, squares: OnceCell::new() }
+    }
+
+    /// The lower triangle of `I + weight·JᵀJ`; nothing else of it is used.
+    pub(super) fn gauss_newton(&self, weight: f64) -> DMatrix<f64> {
+        let mut hessian = weight * self.squares.get_or_init(|| squares(&self.jacobian));
+        add_to_diagonal(&mut hessian, 1.0);
+        hessian
+    }
+
+    /// Factor of `I + JᵀJ`, the inverse of Laplace's covariance; `None` if the model was not finite.
+    #[must_use]
+    pub fn information(&self) -> Option<Cholesky<f64, Dyn>> {
+        Cholesky::new(self.gauss_newton(1.0))
+    }
+}
+
+/// The lower triangle of `JᵀJ`.
+fn squares(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+    let (count, transposed) = (jacobian.ncols(), jacobian.transpose());
+    let mut squares = DMatrix::zeros(count, count);
+    for first in (0..count).step_by(COLUMNS) {
+        let (rows, columns) = (count - first, COLUMNS.min(count - first));
+        let mut below = squares.view_mut((first, first), (rows, columns));
+        below.gemm(1.0, &transposed.rows(first, rows), &jacobian.columns(first, columns), 0.0);
+    }
+    squares
 }
 
 /// Result of the iteration.
@@ -110,7 +146,7 @@ impl<S> Solution<S> {
     #[must_use]
     pub fn ln_evidence(&self, tempering: f64) -> Option<f64> {
         let weight = tempering.powi(-2);
-        let information = Cholesky::new(gauss_newton(&self.at.jacobian, weight))?;
+        let information = Cholesky::new(self.at.gauss_newton(weight))?;
         Some(-0.5 * (cost(weight, &self.w, &self.at.residuals) + information.ln_determinant()))
     }
 
@@ -145,13 +181,6 @@ impl From<usize> for Limits {
     fn from(iterations: usize) -> Self {
         Self { iterations, cost: f64::INFINITY }
     }
-}
-
-/// Cholesky factor of `I + JᵀJ`, where J are the derivatives of the model: the inverse of the covariance in
-/// the Laplace approximation. `None` if the model was not finite.
-#[must_use]
-pub fn information(jacobian: &DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
-    Cholesky::new(gauss_newton(jacobian, 1.0))
 }
 
 /// The initial tempering of the noise: 0.3 times the root mean square residual at `w`, but at least `least`.
@@ -229,18 +258,6 @@ pub(super) fn cost(weight: f64, w: &DVector<f64>, residuals: &DVector<f64>) -> f
     weight * residuals.norm_squared() + w.norm_squared()
 }
 
-/// The lower triangle of `I + weight·JᵀJ`; the rest is not used.
-pub(super) fn gauss_newton(jacobian: &DMatrix<f64>, weight: f64) -> DMatrix<f64> {
-    let (count, transposed) = (jacobian.ncols(), jacobian.transpose());
-    let mut hessian = DMatrix::identity(count, count);
-    for first in (0..count).step_by(COLUMNS) {
-        let (rows, columns) = (count - first, COLUMNS.min(count - first));
-        let mut below = hessian.view_mut((first, first), (rows, columns));
-        below.gemm(weight, &transposed.rows(first, rows), &jacobian.columns(first, columns), 1.0);
-    }
-    hessian
-}
-
 fn add_to_diagonal(matrix: &mut DMatrix<f64>, value: f64) {
     for i in 0..matrix.nrows() {
         matrix[(i, i)] += value;
@@ -272,7 +289,7 @@ impl<M: Model> Search<'_, M> {
     /// `None` if the model is not finite.
     fn gauss_newton(&self, weight: f64) -> Option<GaussNewton> {
         let descent = weight * self.at.jacobian.tr_mul(&self.at.residuals) - &self.w;
-        let hessian = gauss_newton(&self.at.jacobian, weight);
+        let hessian = self.at.gauss_newton(weight);
         let factor = Cholesky::new(hessian.clone())?;
         let direction = factor.solve(&descent);
         let decrement = descent.dot(&direction).max(0.0).sqrt();
@@ -397,7 +414,7 @@ mod tests {
 
         fn linearise(&self, w: &DVector<f64>) -> Linearised<f64> {
             let second = self.scale * w[0].exp();
-            Linearised { residuals: self.residuals(w), jacobian: DMatrix::from_element(1, 1, second), second }
+            Linearised::new(self.residuals(w), DMatrix::from_element(1, 1, second), second)
         }
 
         fn curvature(&self, at: &f64, multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {
@@ -424,7 +441,7 @@ mod tests {
 
         fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
             let jacobian = PRECISION * DMatrix::from_row_slice(1, 2, &[-2.0 * BEND * w[0], 1.0]);
-            Linearised { residuals: self.residuals(w), jacobian, second: () }
+            Linearised::new(self.residuals(w), jacobian, ())
         }
 
         fn curvature(&self, (): &(), multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {
@@ -463,7 +480,7 @@ mod tests {
         fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
             let slope = 10.0 * (w[0] - 1.0).signum();
             let jacobian = DMatrix::from_row_slice(2, 2, &[slope, 0.0, 3.0, -3.0]);
-            Linearised { residuals: self.residuals(w), jacobian, second: () }
+            Linearised::new(self.residuals(w), jacobian, ())
         }
 
         fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
@@ -493,7 +510,7 @@ mod tests {
             let expected = 1.0 + (scale * w.exp()).powi(2);
             assert!(matches!(found.termination, Termination::Converged { .. }), "{:?}", found.termination);
             assert!(slope.abs() < 2e-6 * expected.sqrt(), "{data} {scale}: {slope}");
-            let factor = information(&found.at.jacobian).unwrap().l()[(0, 0)];
+            let factor = found.at.information().unwrap().l()[(0, 0)];
             assert!((factor * factor / expected - 1.0).abs() < 1e-12);
         }
     }

@@ -4,6 +4,7 @@ use nalgebra::DVector;
 use vfold::camera::CameraResponse;
 use vfold::estimate::Exposure;
 use vfold::estimate::data::FacetData;
+use vfold::estimate::emission::Backing;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::deviations;
 use vfold::estimate::unknowns::{Normal, SceneModel};
@@ -25,8 +26,11 @@ fn facets_of_a_sheet_that_fluoresces_have_their_derivatives() {
     let eye = CameraResponse::new(&grid, &curves, &power).unwrap();
     // from the side, so that panels are lit unevenly
     let lighting = Lighting { light: Light::new(&fold, 10.0, 0.0, 0.2).unwrap(), sun: eye.clone(), sky: eye };
-    let scene =
-        SceneModel::known(FacetModel::one_sheet(&response, &lighting)).under(grid.wavelengths_nm(), &power);
+    let scene = SceneModel::known(FacetModel::one_sheet(&response, &lighting)).under(
+        grid.wavelengths_nm(),
+        &power,
+        Backing::Unknown,
+    );
     let reflectance: Vec<f64> = (0..grid.len()).map(|n| 0.6 + 0.3 * (n as f64 / 5.0).sin()).collect();
     let rgb = FacetValues::from(&scene.facets().facet_rgb(&reflectance));
     let sd = deviations(&rgb, |_| 1e-3, 0.0);
@@ -89,7 +93,7 @@ fn nothing_is_asked_beside_a_card() {
     let families_with_card = FacetModel::with_card(&response, &lighting, 1, vec![0.9; 2]);
     let rgb = FacetValues::from(&families_with_card.facet_rgb(&[0.5; 2]));
     let sd = deviations(&rgb, |_| 1e-3, 0.0);
-    let scene = SceneModel::known(families_with_card).under(&[430.0, 600.0], &[1.0, 1.0]);
+    let scene = SceneModel::known(families_with_card).under(&[430.0, 600.0], &[1.0, 1.0], Backing::Unknown);
     let measured = Measured { rgb: &rgb, sd: &sd };
     let data = FacetData::new(&scene, &measured, Exposure::Known(1.0), 1e-2).unwrap();
     assert!(data.emitting(&scene.emissions()[1]).is_none());

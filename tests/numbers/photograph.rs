@@ -1,7 +1,7 @@
 //! The model of a photograph of a real sheet.
 
 use nalgebra::DVector;
-use vfold::estimate::emission::Emission;
+use vfold::estimate::emission::{Backing, Emission};
 use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph::day::Day;
 use vfold::estimate::photograph::error::ModelError;
@@ -51,10 +51,11 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
     let ideal =
         [None, Some(Mistake::Angle), Some(Mistake::Exposure), Some(Mistake::Sky)].map(Hypothesis::ideal);
     let all = usual_hypotheses().into_iter().chain(ideal).chain(hypotheses_without_bounces());
-    // a sheet that sends out nothing, then a brightened one
-    let emissions = Emission::all(wavelengths_nm, parts[0].eye.sun.as_slice());
-    let brightened = usual_hypotheses().into_iter().map(|one| (one, Some(&emissions[1])));
-    for (hypothesis, emission) in all.map(|one| (one, None)).chain(brightened) {
+    // a sheet that emits nothing, then a thin one and a brightened one
+    let emissions = Emission::all(wavelengths_nm, parts[0].eye.sun.as_slice(), Backing::Unknown);
+    let emitting =
+        emissions[1..3].iter().flat_map(|one| usual_hypotheses().into_iter().map(move |of| (of, Some(one))));
+    for (hypothesis, emission) in all.map(|one| (one, None)).chain(emitting) {
         let of = (hypothesis, emission);
         let model = PhotographModel::new(&parts[0], &kinds, of, prior.broad(), &whitening);
         // away from where all is as it is told

@@ -207,7 +207,8 @@ fn left_out_of_what_is_known(path: &Path, exposure: Option<f64>) -> Outcome {
     let parts = fold.parts(&Picture::of(&sample, &measured, exposure).unwrap()).unwrap().unwrap();
     let grid = scene.grid().unwrap();
     let prior = Prior::built_in(grid.wavelengths_nm()).unwrap();
-    let estimate = photograph::estimate(&[parts], &prior).unwrap();
+    let parts = [parts];
+    let estimate = photograph::estimate(&parts, &prior).unwrap();
     let estimate = &estimate.photographs[0];
     let sample = json!({"estimate": {
         "reflectance": estimate.reflectance,

@@ -128,7 +128,7 @@ pub fn estimate_photograph(
     let mut tried = Vec::new();
     let daylight = scenarios.iter().filter(|scenario| scenario.light.is_none());
     for scenario in daylight.chain(probable(&scenarios, prior).into_iter().take(TRIED)) {
-        let SheetEstimate { photographs, ln_evidence } =
+        let SheetEstimate { photographs, ln_evidence, .. } =
             photograph::estimate(slice::from_ref(&scenario.parts), prior)?;
         tried.extend(
             photographs.into_iter().map(|estimate| (scenario, scenario.ln_share + ln_evidence, estimate)),

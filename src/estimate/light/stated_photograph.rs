@@ -5,8 +5,6 @@
 //! without a sky: otherwise lamps of its colour, which have none, would better explain pictures that show
 //! hardly any sky.
 
-use std::slice;
-
 use nalgebra::DVector;
 
 use super::Candidate;
@@ -16,7 +14,7 @@ use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::hypotheses::Hypothesis;
 use crate::estimate::photograph::sheet_models::SheetModel;
-use crate::estimate::photograph::{Parts, Photographs};
+use crate::estimate::photograph::{Modes, Parts, Photographs};
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 
@@ -61,17 +59,19 @@ impl Starts {
 /// which the kind of `day` has been inferred if it is daylight.
 pub fn rival_in_photograph(
     parts: &Parts,
-    day: Option<Day>,
+    (day, modes): (Option<Day>, &Modes),
     others: &Others,
     prior: &Prior,
 ) -> Option<RivalLight> {
-    let photographs = Photographs::of(slice::from_ref(parts));
+    let Modes { photographs, of_days } = modes;
     let days = day.map_or_else(|| Day::ALL.to_vec(), |day| vec![day]);
     let under_sky = Lit { name: String::new(), with_sky: parts.clone(), without_sky: Vec::new(), days };
     let mut starts = Starts::default();
-    let best_under_sky = under_sky.best(&photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
+    let is_on_day = |one: &&(Day, DVector<f64>)| day.is_none_or(|day| day == one.0);
+    of_days.iter().filter(is_on_day).take(1).for_each(|(_, mode)| starts.keep(mode));
+    let best_under_sky = under_sky.best(photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
     let lamp = parts.clone().without_sky();
-    let of_sky = (&photographs, &best_under_sky.tried.solution.w);
+    let of_sky = (photographs, &best_under_sky.tried.solution.w);
     let hypothesis = Hypothesis::on_dull_day(Day::Clear, SheetModel::Family);
     starts.keep(&photographs.in_light_of(&lamp).carried(of_sky, hypothesis, prior)?);
     let mut least = best_under_sky.tried.ln_weight() + LN_AHEAD;
@@ -80,7 +80,7 @@ pub fn rival_in_photograph(
             Some(lamp) => Lit::of(lamp.name.clone(), parts.in_light(&lamp.power), others),
             None => Lit::of("daylight".to_owned(), parts.in_any_daylight(), others),
         };
-        let best = lit.best(&photographs, prior, (&mut starts, least))?;
+        let best = lit.best(photographs, prior, (&mut starts, least))?;
         (best.tried.ln_weight() > least).then_some((lit, best))
     };
     let lights = other_lights(parts, others);
@@ -90,7 +90,7 @@ pub fn rival_in_photograph(
     }
     // without a sky, the stated light may be ahead of these
     let stated = Lit { days: under_sky.days.clone(), ..Lit::of(String::new(), parts.clone(), others) };
-    let best_of_stated = stated.best(&photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
+    let best_of_stated = stated.best(photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
     least = best_of_stated.tried.ln_weight() + LN_AHEAD;
     ahead.retain(|(_, (_, best))| best.tried.ln_weight() > least);
     let by_classes = |lit: &Lit, Best { scenario, tried }: &Best| {

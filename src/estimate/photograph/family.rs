@@ -15,7 +15,7 @@ use crate::estimate::gaussian::Gaussian;
 use crate::estimate::mixture::LocalMode;
 use crate::estimate::prior::Prior;
 use crate::estimate::unknowns::EXPOSURE;
-use crate::solve::posterior::{Linearised, Model, information};
+use crate::solve::posterior::{Linearised, Model};
 
 /// Number of channels that distinguish classes.
 const TELLING_CHANNELS: usize = 3;
@@ -211,9 +211,9 @@ impl JointModel<'_> {
             [Member { model, .. }] => model.by_nominal(w),
             _ => None,
         };
-        let Some(stated) = stated else { return Some(information(&at.jacobian)?.l()) };
-        let columns = at.jacobian.column_iter().chain(stated.column_iter());
-        Some(information(&DMatrix::from_columns(&columns.collect::<Vec<_>>()))?.l())
+        let Some(stated) = stated else { return Some(at.information()?.l()) };
+        let columns: Vec<_> = at.jacobian.column_iter().chain(stated.column_iter()).collect();
+        Some(Linearised::new(at.residuals.clone(), DMatrix::from_columns(&columns), ()).information()?.l())
     }
 }
 

@@ -163,7 +163,7 @@ impl Model for JointModel<'_> {
             }
             first += one.residuals.len();
         }
-        Linearised { residuals, jacobian, second: () }
+        Linearised::new(residuals, jacobian, ())
     }
 
     /// Omitted: the priors bound the unknowns, and the noise of photographs does not act as a constraint.

@@ -13,7 +13,7 @@ use crate::estimate::family::{Family, SpectrumModel};
 use crate::estimate::prior::Prior;
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::{Normal, SKY_COLOUR, SUN_COLOUR, Unknown};
-use crate::solve::posterior::{Limits, Linearised, Model, Solution, find_mode, first_tempering, information};
+use crate::solve::posterior::{Limits, Linearised, Model, Solution, find_mode, first_tempering};
 
 /// A mode counts as found within this many standard deviations, which changes the log evidence by much less
 /// than one. A search ends after this many iterations.
@@ -89,7 +89,7 @@ impl Model for KnownModel<'_> {
         let (facets, bands) = (jacobian.nrows(), by_reflectance.nrows());
         let mut jacobian = jacobian.resize_vertically(facets + bands, 0.0);
         jacobian.rows_mut(facets, bands).copy_from(&by_reflectance);
-        Linearised { residuals: stacked(&residuals, &self.of_reflectance(w)), jacobian, second: () }
+        Linearised::new(stacked(&residuals, &self.of_reflectance(w)), jacobian, ())
     }
 
     /// Omitted as for photographs.
@@ -137,7 +137,7 @@ impl Photographs<'_> {
             return None;
         }
         let Solution { w, at, .. } = found;
-        let lower = information(&at.jacobian)?.l();
+        let lower = at.information()?.l();
         let own = lower.solve_lower_triangular(&DMatrix::identity(lower.nrows(), lower.nrows()))?;
         let facets = model.photograph.first().model.values().len();
         let rms = at.residuals.rows(0, facets).norm() / (facets as f64).sqrt();

@@ -523,11 +523,8 @@ impl Model for PhotographModel<'_> {
                 jacobian.column_mut(n).copy_from_slice(here.with_terms(&change).as_slice());
             }
         }
-        Linearised {
-            residuals: self.whitening.of(&in_order(&(&self.parts.values - values))),
-            jacobian: self.whitening.of_all(&jacobian),
-            second: (),
-        }
+        let residuals = self.whitening.of(&in_order(&(&self.parts.values - values)));
+        Linearised::new(residuals, self.whitening.of_all(&jacobian), ())
     }
 
     /// Omitted: the priors bound the unknowns, and the noise of photographs does not act as a constraint.

@@ -148,7 +148,7 @@ priors! {
 
     /// The model error, relative to predicted values, common to all channels. For the origin of its sizes see
     /// docs/model.md.
-    discrepancy_shared: 0.01,
+    discrepancy_shared: 0.0125,
     /// Addition if all light is the sky's: root mean square differences of overcast skies of types 1, 3 and 5
     /// within panels (`benches/skies.rs`).
     discrepancy_sky: 0.016,
@@ -156,18 +156,18 @@ priors! {
     /// hidden sun.
     discrepancy_sky_aside: 0.07,
     /// In each channel by itself.
-    discrepancy_own: 0.006,
+    discrepancy_own: 0.005,
     /// In each facet by itself.
     discrepancy_white: 0.008,
     /// In the facets at the crease, which is not as sharp, or as round, as in the model.
     discrepancy_at_crease: 0.05,
     /// In the facets at the outer sides: an edge is not straight or sharp, so that some background counts as
     /// sheet.
-    discrepancy_at_outer_side: 0.047,
+    discrepancy_at_outer_side: 0.073,
     /// Displacement of a corner from its mark, in panel depths.
-    corner: 0.0125,
+    corner: 0.0155,
     /// Correlation length of the model error, in panel depths.
-    discrepancy_length: 0.8,
+    discrepancy_length: 1.0,
 
     /// Share of photographs of an ideal fold in a scene exactly as stated: computed ones.
     ideal_share: 0.04,

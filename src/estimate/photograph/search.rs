@@ -36,19 +36,29 @@ const LN_EVIDENCE_FAR: f64 = -8.0;
 type Tried = Sorted<Hypothesis, ()>;
 
 /// A sheet as inferred from its photographs.
-pub struct SheetEstimate {
+pub struct SheetEstimate<'a> {
     /// One estimate per photograph: spectrum and error bars are common to all, the rest is individual.
     pub photographs: Vec<Estimate>,
     /// Log evidence of all facets, up to a term that depends on each photograph alone: the difference between
     /// one sheet and several decides between the two.
     pub ln_evidence: f64,
+    /// What searches in another light start from.
+    pub modes: Modes<'a>,
+}
+
+/// Modes of a sheet of the [family](SheetModel::Family).
+pub struct Modes<'a> {
+    /// The photographs, with errors relative to predicted values.
+    pub photographs: Photographs<'a>,
+    /// The mode on each kind of day that was tried.
+    pub of_days: Vec<(Day, DVector<f64>)>,
 }
 
 /// The estimate from photographs of one sheet, one or more.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
-pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
+pub fn estimate<'a>(parts: &'a [Parts], prior: &Prior) -> Result<SheetEstimate<'a>> {
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
     under(parts, prior, (hypotheses, dull_days)).ok_or_else(not_finite)
 }
@@ -58,7 +68,7 @@ pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
 ///
 /// # Errors
 /// As [`estimate`]; [`Error::Field`] if the stated scene has no sun, which is required here.
-pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
+pub fn estimate_usual<'a>(parts: &'a [Parts], prior: &Prior) -> Result<SheetEstimate<'a>> {
     if parts.iter().any(|one| one.stated.sun <= 0.0) {
         let problem = "photographs are joined and planned in the sun alone; \
                        estimate one that the sky lights alone by itself";
@@ -68,11 +78,11 @@ pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     under(parts, prior, (|_| usual_hypotheses(), |_| Vec::new())).ok_or_else(not_finite)
 }
 
-fn under(
-    parts: &[Parts],
+fn under<'a>(
+    parts: &'a [Parts],
     prior: &Prior,
     (hypotheses, dull_days): (impl Fn(&[Photograph]) -> Vec<Hypothesis>, impl Fn(&[Photograph]) -> Vec<Day>),
-) -> Option<SheetEstimate> {
+) -> Option<SheetEstimate<'a>> {
     let (family, start) = relative_to_predictions(Photographs::of(parts), prior)?;
     let mut search = Search::new(&family, prior);
     let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
@@ -81,6 +91,12 @@ fn under(
     if let [only] = family.0.as_slice() {
         add_emitting(&mut search, (&family, only), &mut sorted);
     }
+    let is_of_family = |one: &Hypothesis| {
+        let Hypothesis { day, emission, .. } = *one;
+        *one == Hypothesis { emission, ..Hypothesis::on_dull_day(day, SheetModel::Family) }
+    };
+    let of_family = sorted.iter().filter(|one| is_of_family(&one.hypothesis));
+    let of_days = of_family.map(|one| (one.hypothesis.day, one.solution.w.clone())).collect();
     // without a fold, no light bounces between panels
     let without_bounces = probability(&sorted, |one| !one.has_bounces());
     let folds = folds(sorted);
@@ -94,10 +110,9 @@ fn under(
         let estimate = of_photograph(&found, seen, &search.trace);
         Estimate { findings, day, without_bounces, skipped, fluorescence, ..estimate }
     };
-    Some(SheetEstimate {
-        photographs: family.0.iter().zip(seen).map(of).collect(),
-        ln_evidence: found.ln_evidence,
-    })
+    let estimates = family.0.iter().zip(seen).map(of).collect();
+    let ln_evidence = found.ln_evidence;
+    Some(SheetEstimate { photographs: estimates, ln_evidence, modes: Modes { photographs: family, of_days } })
 }
 
 /// Photographs with errors relative to predicted values rather than to measured ones, and the point of the
