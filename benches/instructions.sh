@@ -2,13 +2,14 @@
 # Instructions that each tool takes on the standard scene, on one thread under valgrind, beside those kept in benches/instructions.csv.
 # Unlike times they hardly depend on the machine and what else it does, so that a change of one per cent shows.
 #
-#   benches/instructions.sh           print them and how they changed: half a minute once built
+#   benches/instructions.sh           print them and how they changed, and fail where they rose by more than MOST per cent (5):
+#                                     half a minute once built
 #   benches/instructions.sh --keep    count twice, and keep them if both counts agree within 0.5 %
 #
 # Tools in the folder TOOLS are counted as they are.
 #
 # They are those of benches/counted.toml, which are nearly those of a release: that would take longer than all the rest.
-# A change, however large, is the reader's to judge; what cannot be built or counted is an error.
+# A change that is worth more is kept with its reason in the commit.
 set -eu
 cd "$(dirname "$0")/.."
 kept=$PWD/benches/instructions.csv
@@ -22,11 +23,14 @@ trap 'rm -rf "$work"' EXIT
 cp tests/data/photos/a_ideal_magenta_50.exr "$work/photo.exr"
 cd "$work"
 
+# Each byte that `rep stosb` or `rep movsb` sets or copies would count as an instruction, from sizes on that depend on the processor.
+without_rep=glibc.cpu.x86_rep_stosb_threshold=0x7fffffff:glibc.cpu.x86_rep_movsb_threshold=0x7fffffff
+
 # count WHAT TOOL FLAGS...: a row of the table; the tool reads the file `in` and writes `out`.
 count() {
     what=$1 tool=$2
     shift 2
-    if ! env -i valgrind --tool=callgrind --callgrind-out-file=calls "$bin/$tool" -j 1 "$@" <in >out 2>log; then
+    if ! env -i GLIBC_TUNABLES="$without_rep" valgrind --tool=callgrind --callgrind-out-file=calls "$bin/$tool" -j 1 "$@" <in >out 2>log; then
         cat log >&2
         echo "benches/instructions.sh: $tool cannot be counted" >&2
         return 1
@@ -58,6 +62,17 @@ beside() {
               was ? sprintf("%+.2f %%", 100 * ($2 / was - 1)) : "new" }'
 }
 
+# risen OLD: a line for each count on standard input that is beyond that of a file, and whether there is any.
+risen() {
+    awk -F, -v old="$1" -v most="${MOST:-5}" '
+        BEGIN { while ((getline <old) > 0) before[$1] = $2 }
+        before[$1] && $2 > (1 + most / 100) * before[$1] {
+            print "benches/instructions.sh: " $1 " takes more than " most " % more instructions; save them, or keep them with --keep, and say why"
+            any = 1
+        }
+        END { exit !any }'
+}
+
 case ${1:-} in
     --keep)
         counts >once
@@ -70,5 +85,6 @@ case ${1:-} in
     *)
         counts >now
         beside "$kept" <now
+        if risen "$kept" <now >&2; then exit 1; fi
         ;;
 esac

@@ -75,16 +75,19 @@ pub fn rival_in_photograph(
     let hypothesis = Hypothesis::on_dull_day(Day::Clear, SheetModel::Family);
     starts.keep(&photographs.in_light_of(&lamp).carried(of_sky, hypothesis, prior)?);
     let mut least = best_under_sky.tried.ln_weight() + LN_AHEAD;
-    let ahead = |light: &Option<&Candidate>| {
-        let lit = match light {
-            Some(lamp) => Lit::of(lamp.name.clone(), parts.in_light(&lamp.power), others),
-            None => Lit::of("daylight".to_owned(), parts.in_any_daylight(), others),
-        };
+    let mut if_ahead = |lit: Lit| {
         let best = lit.best(photographs, prior, (&mut starts, least))?;
         (best.tried.ln_weight() > least).then_some((lit, best))
     };
-    let lights = other_lights(parts, others);
-    let mut ahead = coarse_to_fine(&lights, ahead, |(_, best)| best.tried.ln_weight());
+    let by_lamp =
+        |lamp: &&Candidate| if_ahead(Lit::of(lamp.name.clone(), parts.in_light(&lamp.power), others));
+    let lamps: Vec<_> = others.lights().iter().filter(|light| !light.is_any_daylight).collect();
+    let lamps = coarse_to_fine(&lamps, by_lamp, |(_, best)| best.tried.ln_weight());
+    let mut ahead: Vec<_> = lamps.into_iter().map(|(_, ahead)| ahead).collect();
+    // daylight is like none of them
+    if !matches!(parts.stated.daylight, Some(Daylight::Cie { .. })) {
+        ahead.extend(if_ahead(Lit::of("daylight".to_owned(), parts.in_any_daylight(), others)));
+    }
     if ahead.is_empty() {
         return None;
     }
@@ -92,21 +95,13 @@ pub fn rival_in_photograph(
     let stated = Lit { days: under_sky.days.clone(), ..Lit::of(String::new(), parts.clone(), others) };
     let best_of_stated = stated.best(photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
     least = best_of_stated.tried.ln_weight() + LN_AHEAD;
-    ahead.retain(|(_, (_, best))| best.tried.ln_weight() > least);
+    ahead.retain(|(_, best)| best.tried.ln_weight() > least);
     let by_classes = |lit: &Lit, Best { scenario, tried }: &Best| {
         let (parts, ..) = *lit.scenarios().get(*scenario)?;
         Search::new(&photographs.in_light_of(parts), prior).ln_evidence_by_classes(tried)
     };
-    let of_lights =
-        ahead.iter().filter_map(|(_, (lit, best))| Some((lit.name.clone(), by_classes(lit, best)?)));
+    let of_lights = ahead.iter().filter_map(|(lit, best)| Some((lit.name.clone(), by_classes(lit, best)?)));
     RivalLight::of(of_lights, by_classes(&stated, &best_of_stated)?, LN_ODDS)
-}
-
-/// Daylight, unless it was stated (`None` stands for it), then the lamps.
-fn other_lights<'o>(parts: &Parts, others: &'o Others) -> Vec<Option<&'o Candidate>> {
-    let is_stated = matches!(parts.stated.daylight, Some(Daylight::Cie { .. }));
-    let lamps = others.lights().iter().filter(|light| !light.is_any_daylight).map(Some);
-    (!is_stated).then_some(None).into_iter().chain(lamps).collect()
 }
 
 impl Lit {
