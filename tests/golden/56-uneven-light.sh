@@ -33,3 +33,11 @@ estimate = json.load(sys.stdin)["estimate"]
 day, elevation = estimate["day"], estimate["fit"].get("elevation_deg", {"value": 0, "sd": 0})
 print(day["kind"], day["probability"] > 0.9, elevation["sd"] < 6)'
 done
+# A lamp that was stated for daylight: daylight is named.
+vkernel -q --angle-deg 50 --tilt-deg 1 --sky 0.1 |
+    vforward -q --reflectance cc24:neutral-5 --illuminant daylight:5400 --sky-illuminant daylight:10000 --exposure 0.7 --noise-sd 1e-3 \
+        --photon-noise 1e-2 --render photo.tif --render-size 320x240 | tail -1 >rendered.json
+vkernel --angle-deg 50 | vextract photo.tif --exact-corners --camera canon-5d-mark-ii --illuminant A --regions rendered.json -q |
+    vestimate -q | tail -n 1 | python3 -c 'import json, sys
+verdict = json.load(sys.stdin)["estimate"]["verdict"]
+print(verdict["level"], verdict["because"][:50])'
