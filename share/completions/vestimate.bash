@@ -23,7 +23,7 @@ _vestimate() {
 
     case "${cmd}" in
         vestimate)
-            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --join --illuminants --known-fold --start --plot --spectra --trace --method --components --basis --plan --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
+            opts="-o -j -q -v -h -V --prior --smoothness --noise-sd --model-error --exposure --fit --join --illuminants --known-fold --backed --start --plot --spectra --trace --method --components --basis --plan --material --kernel --irradiance --areas --output --resume --threads --quiet --verbose --progress --save --no-history --generate --list --percent --camera --illuminant --sky-illuminant --reflectance --reference-panel --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

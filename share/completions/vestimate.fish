@@ -198,6 +198,7 @@ complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectan
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
+complete -c vestimate -l backed -d 'The sheet is backed by black card or its like: no light comes through it from behind'
 complete -c vestimate -l plan -d 'Take scenes without samples and report the expected errors: one record per scene, for --noise-sd [default: 1e-3]; for ideal folds, for photographs of real sheets with --fit auto, and with --join for the first scene together with each of the others'
 complete -c vestimate -s q -l quiet -d 'Print nothing but errors'
 complete -c vestimate -s v -l verbose -d 'Report what was decided, measured and skipped'

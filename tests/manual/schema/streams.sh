@@ -83,13 +83,14 @@ for k, line in enumerate(sys.stdin):
     print("--fill:color=%.6f,%.6f,%.6f 18x18+%d+%d" % (*rgb, 508 + 21 * (k % 6), 200 + 21 * (k // 6)))')
 oiiotool "$data/photos/a_ideal_magenta_50.exr" $fills -o beside.exr
 vextract beside.exr --scene finer.ndjson --camera canon-5d-mark-ii --illuminant D65 -q -o beside.ndjson
-# in the light of a sky, of which nobody says anything: an ideal fold, and one of another angle than is told, in haze
-under_sky() { # sky, angle, exposure
-    vkernel --angle-deg $2 --sky $1 | vforward --reflectance cc24:foliage --exposure $3 --photon-noise 0.01 --render dull.tif -q -o dull.ndjson
+# in the light of a sky, of which nobody says anything: an ideal fold, and a glossy one in haze
+under_sky() { # sky, exposure, sheet
+    vkernel --angle-deg 60 --sky $1 |
+        vforward --reflectance cc24:foliage --exposure $2 --photon-noise 0.01 $3 --render dull.tif -q -o dull.ndjson
     vkernel --angle-deg 60 | vextract dull.tif --regions dull.ndjson --camera canon-5d-mark-ii --illuminant D65 -q | vestimate -q
 }
-under_sky 20 60 0.04 >even-sky.ndjson
-under_sky 40 64 0.02 >hazy.ndjson
+under_sky 20 0.04 >even-sky.ndjson
+under_sky 1 0.4 '--specular-weight 0.3 --body-roughness-deg 15' >hazy.ndjson
 # as the camera developed it, which leaves a doubt
 vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --scene scene.ndjson --camera nikon-d5100 --illuminant D65 -q |
     vestimate -q -o doubtful.ndjson
@@ -97,6 +98,7 @@ vestimate photographs.ndjson -q -o photographed.ndjson 2>said || [ $? = 3 ]
 # a brightened sheet
 printf 'nm,f\n380,0\n410,0.08\n435,0.2\n460,0.12\n500,0.03\n540,0\n780,0\n' >brightener.csv
 vkernel --angle-deg 45 | vforward --reflectance cc24:white --fluorescence brightener.csv --noise-sd 1e-3 -q | vestimate -q -o brightened.ndjson
-# a thin sheet, through which light from behind comes
+# a thin sheet, through which light from behind comes, and one that is backed
 printf 'nm,f\n380,0.06\n780,0.08\n' >behind.csv
 vkernel --angle-deg 45 | vforward --reflectance cc24:white --fluorescence behind.csv --noise-sd 1e-3 -q | vestimate --exposure 1 -q -o thin.ndjson
+vkernel --angle-deg 45 | vforward --reflectance cc24:white --noise-sd 1e-3 -q | vestimate --exposure 1 --backed -q -o backed.ndjson
