@@ -89,7 +89,7 @@ under_sky() { # sky, exposure, sheet
         vforward --reflectance cc24:foliage --exposure $2 --photon-noise 0.01 $3 --render dull.tif -q -o dull.ndjson
     vkernel --angle-deg 60 | vextract dull.tif --regions dull.ndjson --camera canon-5d-mark-ii --illuminant D65 -q | vestimate -q
 }
-under_sky 20 0.04 >even-sky.ndjson
+under_sky 20 0.04 '' >even-sky.ndjson
 under_sky 1 0.4 '--specular-weight 0.3 --body-roughness-deg 15' >hazy.ndjson
 # as the camera developed it, which leaves a doubt
 vextract "$data/photos/f_srgb_blue_flower_50.jpg" --regions rendered.ndjson --scene scene.ndjson --camera nikon-d5100 --illuminant D65 -q |
