@@ -67,8 +67,9 @@ pub fn rival_in_photograph(
     let days = day.map_or_else(|| Day::ALL.to_vec(), |day| vec![day]);
     let under_sky = Lit { name: String::new(), with_sky: parts.clone(), without_sky: Vec::new(), days };
     let mut starts = Starts::default();
-    let is_on_day = |one: &&(Day, DVector<f64>)| day.is_none_or(|day| day == one.0);
-    of_days.iter().filter(is_on_day).take(1).for_each(|(_, mode)| starts.keep(mode));
+    if let Some((_, mode)) = of_days.iter().find(|(of, _)| day.is_none_or(|day| day == *of)) {
+        starts.keep(mode);
+    }
     let best_under_sky = under_sky.best(photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
     let lamp = parts.clone().without_sky();
     let of_sky = (photographs, &best_under_sky.tried.solution.w);

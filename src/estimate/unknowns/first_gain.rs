@@ -6,7 +6,7 @@ use crate::estimate::photograph::StatedScene;
 /// Gain of the first channel relative to the second, compared with the stated one.
 pub static FIRST_GAIN: Unknown = Unknown {
     name: "first_gain",
-    description: "Gain of the first channel beside the second, relative to the stated one",
+    description: "Ratio of the first channel's gain to the second's, relative to the stated ratio",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,

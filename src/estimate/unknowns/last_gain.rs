@@ -7,7 +7,7 @@ use crate::estimate::photograph::StatedScene;
 /// Gain of the last channel relative to the second, compared with the stated one.
 pub static LAST_GAIN: Unknown = Unknown {
     name: "last_gain",
-    description: "Gain of the last channel beside the second, relative to the stated one",
+    description: "Ratio of the last channel's gain to the second's, relative to the stated ratio",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,
