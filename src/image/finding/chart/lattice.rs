@@ -28,8 +28,9 @@ const OFF: f64 = 0.22;
 const ROUNDS: [i32; 5] = [1, 2, 4, 6, 6];
 /// Fewest blobs that determine perspective.
 const ENOUGH: usize = 8;
-/// Lattices of this many blobs are not grown again from each of them.
-const WHOLE: usize = 12;
+/// Lattices of this many blobs, as many as a chart has, are not grown again from each of them. Smaller ones
+/// may be bent by steep perspective, and another seed may grow the straight one.
+const WHOLE: usize = 24;
 
 /// A node of a lattice: column and row.
 pub(super) type Node = [i32; 2];
