@@ -53,13 +53,14 @@ pub struct Opened {
 
 impl Reading {
     /// Opens a photograph to be measured. Its checksum is computed in parallel, as it may take as long as
-    /// reading.
+    /// reading, but not before the file is known to be small enough.
     ///
     /// # Errors
     /// As [`Reading::open`].
     pub fn open_to_measure(&self, path: &Path) -> Result<Opened> {
+        let file = file(path)?;
         let checksum = || path.is_file().then(|| sha256(path)).transpose();
-        let (photograph, sha256) = rayon::join(|| self.open(path), checksum);
+        let (photograph, sha256) = rayon::join(|| self.read(file), checksum);
         Ok(Opened { photograph: photograph?, sha256: sha256? })
     }
 
@@ -68,21 +69,30 @@ impl Reading {
     /// # Errors
     /// As [`Photograph::open`]; [`Error::Picture`] if it is a picture for the eye.
     pub fn open(&self, path: &Path) -> Result<Photograph> {
-        let mut file = PictureFile::open(path)?;
-        if is_for_the_eye(&mut file) {
-            let problem = "this is a picture for the eye, made by vfold";
-            return Err(Error::picture(
-                path,
-                problem,
-                "render it as .exr or .tif, or give the photograph itself",
-            ));
-        }
+        self.read(file(path)?)
+    }
+
+    fn read(&self, file: PictureFile) -> Result<Photograph> {
         let photograph = Photograph::read(file, &self.options)?;
         match self.black_level {
             Some(BlackLevel::Darkest) => Ok(photograph.with_darkest_as_black()),
             _ => Ok(photograph),
         }
     }
+}
+
+/// The file of a photograph, unless it is a picture for the eye.
+fn file(path: &Path) -> Result<PictureFile> {
+    let mut file = PictureFile::open(path)?;
+    if is_for_the_eye(&mut file) {
+        let problem = "this is a picture for the eye, made by vfold";
+        return Err(Error::picture(
+            path,
+            problem,
+            "render it as .exr or .tif, or give the photograph itself",
+        ));
+    }
+    Ok(file)
 }
 
 impl ReadingArgs {

@@ -91,8 +91,8 @@ const BRIGHTENER: Band = Band {
     share: Share::OfWhite(0.35),
 };
 
-/// Dyes of banknotes, safety cloth and markers, such as coumarins, fluoresceins and rhodamines: emission from
-/// blue green to red, 30 to 70 nm wide at half maximum (J. R. Lakowicz, *Principles of Fluorescence
+/// Dyes of sticky notes, safety cloth and markers, such as coumarins, fluoresceins and rhodamines: emission
+/// from blue green to red, 30 to 70 nm wide at half maximum (J. R. Lakowicz, *Principles of Fluorescence
 /// Spectroscopy* (2006), chapter 3), together in one sheet in fifty.
 const fn dye(peak_nm: f64) -> Band {
     let peak_per_cm = 1e7 / peak_nm;
@@ -122,14 +122,14 @@ const THROUGH: Band = Band {
     share: Share::OfAll(0.05),
 };
 
+/// Light from behind comes first, so that the rest is what a sheet before black card may have.
 static BANDS: [Band; 9] =
     [THROUGH, BRIGHTENER, dye(480.0), dye(505.0), dye(530.0), dye(555.0), dye(580.0), dye(605.0), dye(630.0)];
 
 /// What is behind a sheet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backing {
-    /// Nobody said: perhaps light, if the sheet is thin.
-    #[default]
+    /// Not stated: light may come through a thin sheet.
     Unknown,
     /// A black card or its like, which sends no light through the sheet.
     Black,
