@@ -1,38 +1,78 @@
-//! Linear maps from the terms of the reflectance to compressed data, one per channel and source.
+//! Linear maps from the terms of the reflectance to compressed data, by channel and source.
 
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-/// The maps from the terms to one channel's compressed data, and the camera's weights per waveband: one of
-/// each per source.
+use crate::camera::CameraResponse;
+use crate::solve::dense::{add_product, add_rows};
+
+/// Light of a source on the surface.
 #[derive(Clone)]
-pub struct ChannelModel {
-    pub sources: Vec<DMatrix<f64>>,
-    pub weights: Vec<DVector<f64>>,
+struct Lit {
+    /// Map from the terms to the compressed data of all channels, which follow one another.
+    compressed: DMatrix<f64>,
+    /// The camera's weights: waveband by channel.
+    weights: DMatrix<f64>,
 }
 
 /// The channels, whose data follow one another.
 #[derive(Clone)]
-pub struct Channels(pub Vec<ChannelModel>);
+pub struct Channels {
+    /// Data of each channel.
+    rows: Vec<Range<usize>>,
+    sources: Vec<Lit>,
+}
 
 impl Channels {
-    /// Number of compressed data.
-    fn len(&self) -> usize {
-        self.0.iter().map(|channel| channel.sources[0].nrows()).sum()
+    /// The maps from the terms to each channel's data for every source, `[channel][source]`, and the camera's
+    /// responses to each source.
+    pub fn new<'c>(maps: &[Vec<DMatrix<f64>>], cameras: impl Iterator<Item = &'c CameraResponse>) -> Self {
+        let ends = maps.iter().scan(0, |end, of_channel| {
+            let start = *end;
+            *end += of_channel[0].nrows();
+            Some(start..*end)
+        });
+        let rows: Vec<_> = ends.collect();
+        let data = rows.last().map_or(0, |last| last.end);
+        let lit = |(source, camera): (usize, &CameraResponse)| {
+            let mut compressed = DMatrix::zeros(data, maps[0][source].ncols());
+            for (rows, of_channel) in rows.iter().zip(maps) {
+                compressed.rows_mut(rows.start, rows.len()).copy_from(&of_channel[source]);
+            }
+            Lit { compressed, weights: weights(camera) }
+        };
+        let sources = cameras.enumerate().map(lit).collect();
+        Self { rows, sources }
     }
 
-    fn sources(&self) -> usize {
-        self.0[0].sources.len()
+    /// The same surface in another light.
+    pub fn in_light(&self, camera: &CameraResponse) -> Self {
+        let lit =
+            |Lit { compressed, .. }: &Lit| Lit { compressed: compressed.clone(), weights: weights(camera) };
+        Self { rows: self.rows.clone(), sources: self.sources.iter().map(lit).collect() }
+    }
+
+    /// Their number.
+    pub fn count(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Number of compressed data.
+    fn len(&self) -> usize {
+        self.rows.last().map_or(0, |last| last.end)
     }
 
     /// Model of the compressed data at exposure 1 for each source in amount 1: datum by source.
     pub fn parts_of(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut parts = DMatrix::zeros(self.len(), self.sources());
-        self.each_part(|rows, source, compressed, weights| {
-            let mut part = parts.view_mut((rows.start, source), (rows.len(), 1));
-            part.gemm(1.0, compressed, &terms.tr_mul(weights), 0.0);
-        });
+        let mut parts = DMatrix::zeros(self.len(), self.sources.len());
+        for (Lit { compressed, weights }, mut part) in self.sources.iter().zip(parts.column_iter_mut()) {
+            let seen = terms.tr_mul(weights);
+            for (rows, seen) in self.rows.iter().zip(seen.column_iter()) {
+                let of_channel = compressed.rows(rows.start, rows.len());
+                part.rows_mut(rows.start, rows.len()).gemv(1.0, &of_channel, &seen, 0.0);
+            }
+        }
         parts
     }
 
@@ -40,15 +80,14 @@ impl Channels {
     /// by `more` columns of zeros.
     pub fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
         let mut columns = DMatrix::zeros(self.len(), terms.nrows() + more);
-        let terms = terms.transpose();
-        self.each_part(|rows, source, compressed, weights| {
-            let mut part = compressed * &terms;
-            part.column_iter_mut()
-                .zip(weights.iter())
-                .for_each(|(mut column, weight)| column *= amounts[source] * weight);
-            let mut target = columns.view_mut((rows.start, 0), part.shape());
-            target += part;
-        });
+        for (Lit { compressed, weights }, amount) in self.sources.iter().zip(amounts) {
+            for (rows, weights) in self.rows.iter().zip(weights.column_iter()) {
+                let weights = *amount * weights;
+                let mut weighted = terms.clone();
+                weighted.column_iter_mut().for_each(|mut term| term.component_mul_assign(&weights));
+                add_rows(&mut columns, rows.clone(), (compressed, &weighted), 0..terms.ncols());
+            }
+        }
         columns
     }
 
@@ -60,23 +99,39 @@ impl Channels {
         amounts: &DVector<f64>,
     ) -> DVector<f64> {
         let mut along = DVector::zeros(of_terms.nrows());
-        self.each_part(|rows, source, compressed, weights| {
-            let by_term = amounts[source] * compressed.tr_mul(&multipliers.rows(rows.start, rows.len()));
-            along += (of_terms * by_term).component_mul(weights);
-        });
+        for (Lit { compressed, weights }, amount) in self.sources.iter().zip(amounts) {
+            let mut by_term = DMatrix::zeros(of_terms.ncols(), self.rows.len());
+            for (rows, mut by_term) in self.rows.iter().zip(by_term.column_iter_mut()) {
+                let multipliers = multipliers.rows(rows.start, rows.len());
+                by_term.gemv_tr(*amount, &compressed.rows(rows.start, rows.len()), &multipliers, 0.0);
+            }
+            let mut by_band = DMatrix::zeros(of_terms.nrows(), self.rows.len());
+            add_product(&mut by_band, of_terms, &by_term);
+            by_band.component_mul_assign(weights);
+            by_band.column_iter().for_each(|of_channel| along += of_channel);
+        }
         along
     }
 
-    /// Visits every channel under every source: its rows of the compressed data, the source, the map from the
-    /// terms to the rows, and the camera's weights per waveband.
-    fn each_part(&self, mut visit: impl FnMut(Range<usize>, usize, &DMatrix<f64>, &DVector<f64>)) {
-        let mut start = 0;
-        for channel in &self.0 {
-            let end = start + channel.sources[0].nrows();
-            for (source, compressed) in channel.sources.iter().enumerate() {
-                visit(start..end, source, compressed, &channel.weights[source]);
-            }
-            start = end;
+    /// The sum over channels and sources in these amounts, per waveband, given what each source's sum is of the
+    /// terms.
+    pub fn sum_of(
+        &self,
+        terms: &DMatrix<f64>,
+        of_sources: &[DVector<f64>],
+        amounts: &DVector<f64>,
+    ) -> DVector<f64> {
+        let mut sum = DVector::zeros(terms.nrows());
+        for ((Lit { weights, .. }, amount), of_terms) in self.sources.iter().zip(amounts).zip(of_sources) {
+            sum += (terms * (*amount * of_terms)).component_mul(&weights.column_sum());
         }
+        sum
     }
+}
+
+/// A camera's responses: waveband by channel.
+fn weights(camera: &CameraResponse) -> DMatrix<f64> {
+    let channels: Vec<_> =
+        (0..camera.channels()).map(|n| DVector::from_column_slice(camera.channel(n))).collect();
+    DMatrix::from_columns(&channels)
 }

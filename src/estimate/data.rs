@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 
-use super::channels::{ChannelModel, Channels};
+use super::channels::Channels;
 use super::compress::{compress, sample_terms, sum_of_rows, weighted};
 use super::emission::terms::{Made, made};
 use super::emission::{Emission, Sent};
@@ -131,15 +131,14 @@ impl<'a> FacetData<'a> {
         let usable = usable_facets(model, measured)?;
         let channels = model.sources()[0].camera.channels();
         let samples = brightness(measured, exposure) * sample_terms(model);
-        let (mut values, mut models, mut outside, mut peak) = (Vec::new(), Vec::new(), 0.0, 0.0_f64);
+        let (mut values, mut maps, mut outside, mut peak) = (Vec::new(), Vec::new(), 0.0, 0.0_f64);
         for channel in 0..channels {
             let (data, sources) = weighted(model, measured, &usable, channel);
             let (kept, sources) = compress(&data, &sources, &samples, cutoff);
             outside += data.norm_squared() - kept.norm_squared();
             peak = peak.max(data.max());
             values.extend(kept.iter());
-            let camera = model.sources().iter().map(|source| source.camera.channel(channel));
-            models.push(ChannelModel { sources, weights: camera.map(DVector::from_column_slice).collect() });
+            maps.push(sources);
         }
         let sums = SumRule {
             measured: usable
@@ -154,7 +153,7 @@ impl<'a> FacetData<'a> {
             scene: Cow::Borrowed(scene),
             exposure,
             values: DVector::from_vec(values),
-            channels: Channels(models),
+            channels: Channels::new(&maps, model.sources().iter().map(|source| &source.camera)),
             outside,
             count,
             peak,
@@ -252,7 +251,7 @@ impl<'a> FacetData<'a> {
     /// Number of the camera's channels in all lights together.
     #[must_use]
     pub fn channels(&self) -> usize {
-        self.channels.0.len()
+        self.channels.count()
     }
 
     /// Root mean square of all facet residuals, including those outside the compressed data.
@@ -290,12 +289,8 @@ impl<'a> FacetData<'a> {
     /// and hence the compression, are unchanged.
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
-        let seen = |(n, channel): (usize, &ChannelModel)| {
-            let weights = DVector::from_column_slice(camera.channel(n));
-            ChannelModel { sources: channel.sources.clone(), weights: vec![weights; channel.sources.len()] }
-        };
-        let channels = Channels(self.channels.0.iter().enumerate().map(seen).collect());
-        Self { scene: Cow::Owned(self.scene.in_light(camera)), channels, ..self.clone() }
+        let (scene, channels) = (self.scene.in_light(camera), self.channels.in_light(camera));
+        Self { scene: Cow::Owned(scene), channels, ..self.clone() }
     }
 
     /// The same data with a prior on the logarithm of the exposure, if it was entirely unknown.
@@ -477,13 +472,7 @@ impl<'a> FacetData<'a> {
 
     /// Sum over all facets and channels, per waveband.
     fn sum_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>) -> DVector<f64> {
-        let mut sum = DVector::zeros(terms.nrows());
-        for channel in &self.channels.0 {
-            for (source, weights) in channel.weights.iter().enumerate() {
-                sum += (terms * (amounts[source] * &self.sums.sources[source])).component_mul(weights);
-            }
-        }
-        sum
+        self.channels.sum_of(terms, &self.sums.sources, amounts)
     }
 
     /// Derivatives of the logarithm of that sum, columns as in the Jacobian.

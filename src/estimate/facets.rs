@@ -10,6 +10,7 @@ use super::emission::{Emission, Fall, Sent};
 use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
 use super::prior::Prior;
+use crate::solve::dense::{add_rows, product_with_transposed};
 use crate::solve::posterior::{Linearised, Model};
 
 /// Reflectance at which the spread of spectra is half of what their logits imply: the surface of a dark sheet
@@ -24,9 +25,9 @@ const TOLERANCE: f64 = 1e-3;
 /// Converts derivatives by logits and unknowns to derivatives by whitened logits and unknowns.
 fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
     let (bands, coordinates) = gaussian.basis().shape();
-    let unknowns = jacobian.ncols() - bands;
-    let mut all =
-        (jacobian.columns(0, bands) * gaussian.basis()).resize_horizontally(coordinates + unknowns, 0.0);
+    let (rows, unknowns) = (jacobian.nrows(), jacobian.ncols() - bands);
+    let mut all = DMatrix::zeros(rows, coordinates + unknowns);
+    add_rows(&mut all, 0..rows, (jacobian, &gaussian.basis().transpose()), 0..bands);
     all.columns_mut(coordinates, unknowns).copy_from(&jacobian.columns(bands, unknowns));
     all
 }
@@ -245,16 +246,21 @@ impl Model for Facets<'_> {
         let Curvature { slopes, reflectance, mut mixed, unknowns } =
             self.data.curvature(&at.by_reflectance, multipliers);
         let basis = self.gaussian.basis();
-        let (mut weighted, mut by_logit) = (basis.clone(), DVector::zeros(basis.nrows()));
+        let transposed = basis.transpose();
+        let (mut weighted, mut by_logit) = (transposed.clone(), DVector::zeros(basis.nrows()));
         // Chain rule with dr/dz = r(1 − r) and d²r/dz² = r(1 − r)(1 − 2r); wavebands do not mix.
         for (band, r) in at.reflectance.iter().enumerate() {
             let change = r * (1.0 - r);
             by_logit[band] = change * (change * reflectance[band] + (1.0 - 2.0 * r) * slopes[band]);
-            weighted.row_mut(band).scale_mut(by_logit[band]);
+            weighted.column_mut(band).scale_mut(by_logit[band]);
             mixed.row_mut(band).scale_mut(change);
         }
         let (coordinates, count) = (basis.ncols(), unknowns.nrows());
-        let mut all = (basis.transpose() * &weighted).resize(coordinates + count, coordinates + count, 0.0);
+        let mut all = product_with_transposed(&transposed, &weighted).resize(
+            coordinates + count,
+            coordinates + count,
+            0.0,
+        );
         let mut unknowns = unknowns;
         if let Some((place, Fall { sd, falling, .. })) = self.fall(&DVector::zeros(count)) {
             // the fall moves logits like a coordinate of the spectrum

@@ -12,6 +12,7 @@ use super::family::{Family, SpectrumModel};
 use super::gaussian::Gaussian;
 use super::prior::{Class, Prior, ROUGHNESSES, SCALES};
 use crate::solve::Eigen;
+use crate::solve::dense::{cholesky, transposed_product};
 use crate::solve::posterior::{Linearised, Model};
 
 /// Widths at which every class is weighed. Only classes whose log evidence is this close to the best are
@@ -126,10 +127,10 @@ impl<H: Copy> Linear<H> {
         let residuals = &at.residuals / tempering + &by_others * &others;
         let mut information = by_others.tr_mul(&by_others);
         (0..count).for_each(|n| information[(n, n)] += 1.0);
-        let of_others = Cholesky::new(information)?;
+        let of_others = cholesky(information)?;
         let ln_determinant = of_others.ln_determinant() - 2.0 * model.ln_whitening();
         let Informed { values: informed, off, left } = if count < by_logit.ncols() {
-            Informed::of_few_others(&by_logit, &by_others, &residuals)
+            Informed::of_few_others(&by_logit, &by_others, &residuals).condensed()
         } else {
             Informed::of_many_others(&by_logit, &by_others, &residuals, &of_others)
         };
@@ -150,24 +151,6 @@ impl<H: Copy> Linear<H> {
             left,
         })
         .filter(|linear| (linear.ln_determinant + linear.left).is_finite())
-    }
-
-    /// Drops the information on logits that distinguishes no classes. Weighing classes takes most of the time
-    /// of a hypothesis, and a third of it after this. For a single hypothesis that saves little, and its
-    /// digits are left as they are.
-    ///
-    /// # Source
-    /// Golub and Van Loan, *Matrix Computations* (2013), section 5.4.2: QR with column pivoting, which is an
-    /// orthogonal transformation.
-    pub fn condense(&mut self) {
-        let qr = self.informed.clone().col_piv_qr();
-        let mut informed = qr.r();
-        let count = (0..informed.nrows()).take_while(|n| informed[(*n, *n)].powi(2) > NEGLIGIBLE).count();
-        qr.p().inv_permute_columns(&mut informed);
-        let mut off = self.off.clone();
-        qr.q_tr_mul(&mut off);
-        self.left += off.rows(count, off.len() - count).norm_squared();
-        (self.informed, self.off) = (informed.rows(0, count).into_owned(), off.rows(0, count).into_owned());
     }
 
     /// True if the data say so much about a spectrum that classes of less evidence may be dropped.
@@ -214,6 +197,26 @@ impl Informed {
         }
     }
 
+    /// Without the information that distinguishes no classes: weighing these takes the time of its square.
+    ///
+    /// # Source
+    /// Golub and Van Loan, *Matrix Computations* (2013), section 5.4.2: QR with column pivoting, which is an
+    /// orthogonal transformation.
+    fn condensed(self) -> Self {
+        let Self { values, mut off, left } = self;
+        let qr = values.col_piv_qr();
+        let mut values = qr.r();
+        let count = (0..values.nrows()).take_while(|n| values[(*n, *n)].powi(2) > NEGLIGIBLE).count();
+        qr.p().inv_permute_columns(&mut values);
+        qr.q_tr_mul(&mut off);
+        let beyond = off.rows(count, off.len() - count).norm_squared();
+        Self {
+            values: values.rows(0, count).into_owned(),
+            off: off.rows(0, count).into_owned(),
+            left: left + beyond,
+        }
+    }
+
     /// Uses the information on logits, in which few directions count.
     fn of_many_others(
         by_logit: &DMatrix<f64>,
@@ -221,10 +224,10 @@ impl Informed {
         residuals: &DVector<f64>,
         of_others: &Cholesky<f64, Dyn>,
     ) -> Self {
-        let both = by_others.tr_mul(by_logit);
+        let both = transposed_product(by_others, by_logit);
         let left = of_others.solve(&both);
         let by_others_off = by_others.tr_mul(residuals);
-        let information = by_logit.tr_mul(by_logit) - both.tr_mul(&left);
+        let information = transposed_product(by_logit, by_logit) - transposed_product(&both, &left);
         let off = by_logit.tr_mul(residuals) - left.tr_mul(&by_others_off);
         let Eigen { values, vectors } = Eigen::of_symmetric(information);
         let kept: Vec<usize> = (0..values.len()).filter(|n| values[*n] > NEGLIGIBLE).collect();
@@ -275,7 +278,7 @@ impl LinearClass {
             .by_class
             .zip_map(by_beyond, |by_class, by_beyond| scale * (by_class + roughness * by_beyond));
         (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
-        Cholesky::new(covariance)
+        cholesky(covariance)
     }
 
     /// The log evidence at a width; `None` if it is not finite.
@@ -383,7 +386,7 @@ impl<H: Copy> Candidate<H> {
         let (basis, linear) = (own.basis(), &self.linear);
         let mut information = basis.tr_mul(basis);
         (0..information.nrows()).for_each(|i| information[(i, i)] += NEARLY.powi(2));
-        let spectrum = Cholesky::new(information)?.solve(&basis.tr_mul(&(&linear.logit - own.mean())));
+        let spectrum = cholesky(information)?.solve(&basis.tr_mul(&(&linear.logit - own.mean())));
         Some(joined(&spectrum, &linear.others))
     }
 
@@ -394,7 +397,7 @@ impl<H: Copy> Candidate<H> {
         let spread = &linear.informed * own.basis();
         let mut covariance = &spread * spread.transpose();
         (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
-        let factor = Cholesky::new(covariance)?;
+        let factor = cholesky(covariance)?;
         let spectrum = spread.tr_mul(&factor.solve(&(&linear.off + &linear.informed * &away)));
         let left = &linear.residuals + &linear.by_logit * (away - own.basis() * &spectrum);
         let w = joined(&spectrum, &linear.of_others.solve(&linear.by_others.tr_mul(&left)));

@@ -113,8 +113,8 @@ impl<'a, F: Family> Search<'a, F> {
         let model = self.family.model(hypothesis, self.prior.broad())?;
         let start = start.unwrap_or_else(|| DVector::zeros(model.unknowns()));
         let first = first_tempering(&model, &start, self.coarse);
-        let cost = 2.0 * (model.ln_whitening() + ln_share - ln_least);
-        let limits = Limits { iterations: SORTING_LIMIT, cost };
+        let ln_evidence = ln_least - ln_share - model.ln_whitening();
+        let limits = Limits { iterations: SORTING_LIMIT, ln_evidence };
         let solution = find_mode(&model, start, (first, self.coarse), SORTING_TOLERANCE, limits);
         self.trace.push(solution.trace.clone());
         let ln_evidence = solution.ln_evidence(self.coarse)? + model.ln_whitening();
@@ -163,10 +163,7 @@ impl<'a, F: Family> Search<'a, F> {
         let are_precise = coarse.min(fine) > 1.0;
         let (mut ranked, mut is_telling) = (Vec::new(), false);
         if family.tells_classes() {
-            let mut linears: Vec<_> = sorted.iter().filter_map(|one| self.laplace(one)).collect();
-            if family.has_many_hypotheses() {
-                linears.iter_mut().for_each(Linear::condense);
-            }
+            let linears: Vec<_> = sorted.iter().filter_map(|one| self.laplace(one)).collect();
             is_telling = linears.first().is_some_and(|linear| linear.is_telling(prior.broad()));
             ranked = candidates(family, linears, prior);
         }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
+use super::dense::cholesky;
 use super::posterior::{Model, Solution, cost};
 
 /// At a mode, predicts how much more probable the data become if the model has one more degree of freedom.
@@ -21,7 +22,7 @@ impl<'a> ScoreTest<'a> {
     #[must_use]
     pub fn at<S>(solution: &'a Solution<S>, tempering: f64) -> Option<Self> {
         let (weight, at) = (tempering.powi(-2), &solution.at);
-        let information = Cholesky::new(at.gauss_newton(weight))?;
+        let information = cholesky(at.gauss_newton(weight))?;
         Some(Self { weight, residuals: &at.residuals, jacobian: &at.jacobian, information })
     }
 
@@ -60,7 +61,7 @@ fn ln_gain(slope: f64, bend: f64, least: f64) -> f64 {
 pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, tempering: f64) -> Option<f64> {
     let (at, weight) = (model.linearise(w), tempering.powi(-2));
     let descent = weight * at.jacobian.tr_mul(&at.residuals) - w;
-    let step = Cholesky::new(at.gauss_newton(weight))?.solve(&descent);
+    let step = cholesky(at.gauss_newton(weight))?.solve(&descent);
     Some(cost(weight, w, &at.residuals) - descent.dot(&step))
 }
 

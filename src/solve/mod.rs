@@ -1,6 +1,7 @@
 //! Solvers: eigenvalues, and smooth problems with a Gaussian prior; nothing here knows about optics or
 //! colour.
 
+pub mod dense;
 mod dot;
 mod eigen;
 pub mod forecast;

@@ -18,6 +18,7 @@ use std::cmp::Ordering;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::Termination;
+use super::dense::{cholesky, squares};
 
 /// Initial noise as a share of the residual at the start.
 const FIRST_SHARE: f64 = 0.3;
@@ -50,8 +51,6 @@ const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
 /// A step that lowers the cost by less than this share of its excess over the limit is useless.
 const TOO_LITTLE: f64 = 0.005;
-/// Columns of a symmetric product computed at once.
-const COLUMNS: usize = 32;
 
 /// A model observed through data of known noise.
 pub trait Model {
@@ -96,20 +95,8 @@ impl<S> Linearised<S> {
     /// Factor of `I + JᵀJ`, the inverse of Laplace's covariance; `None` if the model was not finite.
     #[must_use]
     pub fn information(&self) -> Option<Cholesky<f64, Dyn>> {
-        Cholesky::new(self.gauss_newton(1.0))
+        cholesky(self.gauss_newton(1.0))
     }
-}
-
-/// The lower triangle of `JᵀJ`.
-fn squares(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
-    let (count, transposed) = (jacobian.ncols(), jacobian.transpose());
-    let mut squares = DMatrix::zeros(count, count);
-    for first in (0..count).step_by(COLUMNS) {
-        let (rows, columns) = (count - first, COLUMNS.min(count - first));
-        let mut below = squares.view_mut((first, first), (rows, columns));
-        below.gemm(1.0, &transposed.rows(first, rows), &jacobian.columns(first, columns), 0.0);
-    }
-    squares
 }
 
 /// Result of the iteration.
@@ -146,7 +133,7 @@ impl<S> Solution<S> {
     #[must_use]
     pub fn ln_evidence(&self, tempering: f64) -> Option<f64> {
         let weight = tempering.powi(-2);
-        let information = Cholesky::new(self.at.gauss_newton(weight))?;
+        let information = cholesky(self.at.gauss_newton(weight))?;
         Some(-0.5 * (cost(weight, &self.w, &self.at.residuals) + information.ln_determinant()))
     }
 
@@ -171,15 +158,15 @@ impl<S> Solution<S> {
 pub struct Limits {
     /// Number of iterations.
     pub iterations: usize,
-    /// A cost: the search ends when it cannot fall below this value. The cost never falls when the noise
-    /// does.
-    pub cost: f64,
+    /// A log evidence, as [`Solution::ln_evidence`]: the search ends when it foresees less. It never rises
+    /// when the noise falls.
+    pub ln_evidence: f64,
 }
 
 impl From<usize> for Limits {
     /// With this number of iterations.
     fn from(iterations: usize) -> Self {
-        Self { iterations, cost: f64::INFINITY }
+        Self { iterations, ln_evidence: f64::NEG_INFINITY }
     }
 }
 
@@ -231,12 +218,14 @@ pub fn find_mode<M: Model>(
         if search.trace.len() >= limits.iterations {
             break Termination::IterationLimit;
         }
-        // except at the start, the linear model predicts how far the cost can fall
+        // except at the start, the linear model predicts how far the cost can fall; the volume of errors
+        // hardly depends on the point
         let is_near = now < tempering.0 || gradient_norm < END_OF_STAGE;
         let cost = search.cost(&newton);
+        let cost_most = -2.0 * limits.ln_evidence - newton.factor.ln_determinant();
         let last_gain = search.trace.last().filter(|_| steps > 0).map(|before| before.cost - cost);
-        let is_stuck = last_gain.is_some_and(|gain| gain < TOO_LITTLE * (cost - limits.cost));
-        if is_stuck || (is_near && cost - gradient_norm.powi(2) > limits.cost) {
+        let is_stuck = last_gain.is_some_and(|gain| gain < TOO_LITTLE * (cost - cost_most));
+        if is_stuck || (is_near && cost - gradient_norm.powi(2) > cost_most) {
             break Termination::NoProgress { gradient_norm };
         }
         steps += 1;
@@ -290,7 +279,7 @@ impl<M: Model> Search<'_, M> {
     fn gauss_newton(&self, weight: f64) -> Option<GaussNewton> {
         let descent = weight * self.at.jacobian.tr_mul(&self.at.residuals) - &self.w;
         let hessian = self.at.gauss_newton(weight);
-        let factor = Cholesky::new(hessian.clone())?;
+        let factor = cholesky(hessian.clone())?;
         let direction = factor.solve(&descent);
         let decrement = descent.dot(&direction).max(0.0).sqrt();
         Some(GaussNewton { weight, hessian, factor, descent, direction, decrement })
@@ -352,7 +341,7 @@ impl<M: Model> Search<'_, M> {
             let mut hessian = newton.hessian.clone();
             curvature.into_iter().for_each(|curvature| hessian -= curvature);
             add_to_diagonal(&mut hessian, self.damping);
-            Cholesky::new(hessian)?.solve(&newton.descent)
+            cholesky(hessian)?.solve(&newton.descent)
         };
         (direction.norm() <= LONGEST).then_some(direction)
     }

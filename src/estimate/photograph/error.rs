@@ -1,12 +1,14 @@
 //! The model error: what no unknown explains, smooth over a panel and similar in all channels.
 
-use nalgebra::{Cholesky, DMatrix, DMatrixView, DVector, Dyn, U1};
+use std::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
 
 use super::corners::shifts;
 use super::day::Day;
 use super::parts::Place;
 use super::priors::Priors;
-use super::sums::add;
+use crate::solve::dense::{add, add_rows, cholesky, columns};
 
 /// Correlated error of facets, relative to their values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,7 +108,7 @@ impl ModelError {
                 |i, _| if places[i % facets].panel == 0 { values[i] } else { -values[i] },
             );
         covariance.ger(self.aside.powi(2), &aside, &aside, 1.0);
-        let factor = Cholesky::new(covariance)?.unpack();
+        let factor = cholesky(covariance)?.unpack();
         let mut inverse = DMatrix::zeros(count, count);
         for n in 0..count {
             // entries before the diagonal remain 0
@@ -137,7 +139,7 @@ pub struct Whitening {
 }
 
 /// Rows multiplied at once: of a triangle, half of the work is saved, except within these.
-const ROWS: usize = 60;
+const ROWS: usize = 16;
 
 impl Whitening {
     /// Its log determinant, the logarithm of the factor by which it enlarges volumes of errors.
@@ -159,20 +161,30 @@ impl Whitening {
     /// The same for each column of a matrix.
     #[must_use]
     pub fn of_all(&self, errors: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut white = DMatrix::zeros(errors.nrows(), errors.ncols());
-        for (rows, end) in self.rows() {
-            let mut white = white.rows_mut(end - rows.nrows(), rows.nrows());
-            white.gemm(1.0, &rows, &errors.rows(0, end), 0.0);
+        let (count, mut white) = (errors.nrows(), DMatrix::zeros(errors.nrows(), errors.ncols()));
+        let affected: Vec<_> = columns(errors).map(affected).collect();
+        let mut first = 0;
+        for alike in affected.chunk_by(|a, b| a == b) {
+            let (affected, width) = (&alike[0], alike.len());
+            let transposed = errors.columns(first, width).transpose();
+            let mut own = DMatrix::zeros(count, width);
+            for start in (affected.start..count).step_by(ROWS) {
+                let end = count.min(start + ROWS);
+                let inner = affected.start..affected.end.min(end);
+                add_rows(&mut own, start..end, (&self.inverse, &transposed), inner);
+            }
+            white.columns_mut(first, width).copy_from(&own);
+            first += width;
         }
         white
     }
+}
 
-    /// Blocks of a few rows, up to the diagonal of the last, with its index.
-    fn rows(&self) -> impl Iterator<Item = (DMatrixView<'_, f64, U1, Dyn>, usize)> {
-        let count = self.inverse.nrows();
-        (0..count).step_by(ROWS).map(move |start| {
-            let end = count.min(start + ROWS);
-            (self.inverse.view((start, 0), (end - start, end)), end)
-        })
+/// The values that are not zero: errors of a camera's channel leave those of the others alone.
+fn affected(errors: &[f64]) -> Range<usize> {
+    let counts = |error: &f64| *error != 0.0;
+    match (errors.iter().position(counts), errors.iter().rposition(counts)) {
+        (Some(first), Some(last)) => first..last + 1,
+        _ => errors.len()..errors.len(),
     }
 }

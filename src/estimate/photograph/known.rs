@@ -130,7 +130,7 @@ impl Photographs<'_> {
             || prior.broad().nearest(known.reflectance.as_slice()).resize_vertically(model.unknowns(), 0.0);
         let start = start.filter(|w| w.len() == model.unknowns()).cloned().unwrap_or_else(at_mean);
         let first = first_tempering(&model, &start, 1.0);
-        let limits = Limits { iterations: LIMIT, cost: 2.0 * (ln_whitening - ln_least) };
+        let limits = Limits { iterations: LIMIT, ln_evidence: ln_least - ln_whitening };
         let found = find_mode(&model, start, (first, 1.0), TOLERANCE, limits);
         let ln_evidence = found.ln_evidence(1.0)? + ln_whitening;
         if !(ln_evidence.is_finite() && ln_evidence >= ln_least) {

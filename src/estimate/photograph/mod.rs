@@ -31,7 +31,6 @@ pub mod priors;
 pub mod search;
 pub mod sheet_models;
 pub mod sheets;
-mod sums;
 mod unmodelled;
 mod whitened;
 

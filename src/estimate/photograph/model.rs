@@ -19,11 +19,11 @@ use super::parts::{Parts, Radiance};
 use super::prediction::{Predicted, Predictor, Terms};
 use super::sheet_models::{SheetModel, SheetModels};
 use super::sheets::Departure;
-use super::sums::{add_product, columns};
 use crate::estimate::emission::{Emission, Fall, Sent, UNKNOWNS};
 use crate::estimate::gaussian::{Gaussian, logistic};
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::Known;
+use crate::solve::dense::{add_product, columns};
 use crate::solve::posterior::{Linearised, Model};
 
 /// Step of the difference quotients for unknowns of the scene, in standard deviations.

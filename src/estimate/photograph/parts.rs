@@ -5,9 +5,9 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::conditions::{Conditions, Daylight, StatedScene};
+pub use super::sheets::Radiance;
 use super::sheets::Sheets;
-pub use super::sums::Radiance;
-use super::sums::add;
+use crate::solve::dense::add;
 
 /// Position of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,8 +8,8 @@ use super::conditions::Conditions;
 use super::lens::Lens;
 use super::lighting::Lighting;
 use super::parts::{Ambient, Parts, Radiance, Surroundings};
-use super::sums::add_product;
 use crate::estimate::unknowns::Whose;
+use crate::solve::dense::add_product;
 
 /// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the
 /// others.

@@ -29,7 +29,7 @@ use crate::solve::posterior::{Iteration, Model};
 const LN_EVIDENCE_NEAR: f64 = -5.0;
 
 /// Hypotheses whose log evidence is further below the best are hopeless, and their searches are abandoned.
-const LN_EVIDENCE_HOPELESS: f64 = -20.0;
+const LN_EVIDENCE_HOPELESS: f64 = -10.0;
 /// If the best sheet model of a clear day is this far behind on a dull day, the other models have no chance.
 const LN_EVIDENCE_FAR: f64 = -8.0;
 

@@ -1,6 +1,11 @@
 //! Known reflection of sheets: departures of non-Lambertian sheets from a Lambertian one of the same albedo.
 
-use super::sums::{Radiance, add};
+use nalgebra::DMatrix;
+
+use crate::solve::dense::add;
+
+/// Radiance of all facets at the albedo nodes: facet by node.
+pub type Radiance = DMatrix<f64>;
 
 /// Departure of a sheet from a Lambertian one.
 #[derive(Clone, Debug)]
