@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use crate::camera::CameraResponse;
-use crate::solve::dense::{add_product, add_rows};
+use crate::solve::dense::{add_product, add_rows, dot_products, product};
 
 /// Light of a source on the surface.
 #[derive(Clone)]
@@ -67,10 +67,10 @@ impl Channels {
     pub fn parts_of(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
         let mut parts = DMatrix::zeros(self.len(), self.sources.len());
         for (Lit { compressed, weights }, mut part) in self.sources.iter().zip(parts.column_iter_mut()) {
-            let seen = terms.tr_mul(weights);
+            // every channel's weights on the data of all: few numbers, and fewer products than one by one
+            let seen = product(compressed, &dot_products(terms, weights));
             for (rows, seen) in self.rows.iter().zip(seen.column_iter()) {
-                let of_channel = compressed.rows(rows.start, rows.len());
-                part.rows_mut(rows.start, rows.len()).gemv(1.0, &of_channel, &seen, 0.0);
+                part.rows_mut(rows.start, rows.len()).copy_from(&seen.rows(rows.start, rows.len()));
             }
         }
         parts

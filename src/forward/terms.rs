@@ -2,6 +2,7 @@
 //! zero.
 
 use nalgebra::DMatrix;
+use pulp::Arch;
 
 use super::families::{EVEN, Family, ODD, WITH_KNOWN, families_with_card};
 
@@ -93,6 +94,21 @@ impl Terms {
         of: impl Fn(&Family, f64, f64) -> [f64; N],
     ) -> [DMatrix<f64>; N] {
         let mut all = [(); N].map(|()| DMatrix::zeros(bands.len(), self.count()));
+        Arch::new().dispatch(
+            #[inline(always)]
+            || self.fill(bands, reflectance, of, &mut all),
+        );
+        all
+    }
+
+    #[inline(always)]
+    fn fill<const N: usize>(
+        &self,
+        bands: &[usize],
+        reflectance: &[f64],
+        of: impl Fn(&Family, f64, f64) -> [f64; N],
+        all: &mut [DMatrix<f64>; N],
+    ) {
         // Wavebands with the same families and poles form one run, which the compiler can vectorise.
         let run = if matches!(self, Self::One { .. }) { bands.len().max(1) } else { 1 };
         for (n, (bands, reflectance)) in bands.chunks(run).zip(reflectance.chunks(run)).enumerate() {
@@ -108,7 +124,6 @@ impl Terms {
                 }
             }
         }
-        all
     }
 }
 

@@ -58,6 +58,45 @@ pub fn product_with_transposed(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f6
     product
 }
 
+/// The product `aᵀ·b` of two matrices, the second with few columns.
+///
+/// # Panics
+/// If both have not as many rows.
+#[must_use]
+pub fn dot_products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    assert_eq!(a.nrows(), b.nrows(), "rows of factors");
+    let mut products = DMatrix::zeros(a.ncols(), b.ncols());
+    Arch::new().dispatch(DotProducts { a, b, products: products.as_mut_slice() });
+    products
+}
+
+struct DotProducts<'a> {
+    a: &'a DMatrix<f64>,
+    b: &'a DMatrix<f64>,
+    products: &'a mut [f64],
+}
+
+impl WithSimd for DotProducts<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { a, b, products } = self;
+        for (products, b) in products.chunks_exact_mut(a.ncols().max(1)).zip(columns(b)) {
+            let (vectors_b, rest_b) = S::as_simd_f64s(b);
+            let rest_b = simd.partial_load_f64s(rest_b);
+            for (product, a) in products.iter_mut().zip(columns(a)) {
+                let (vectors_a, rest_a) = S::as_simd_f64s(a);
+                let mut sum = simd.mul_f64s(simd.partial_load_f64s(rest_a), rest_b);
+                for (a, b) in vectors_a.iter().zip(vectors_b) {
+                    sum = simd.mul_add_e_f64s(*a, *b, sum);
+                }
+                *product = simd.reduce_sum_f64s(sum);
+            }
+        }
+    }
+}
+
 /// Adds some rows of `a·bᵀ`, summed over some columns of both, to the same rows of `sum`.
 ///
 /// # Panics
@@ -287,8 +326,8 @@ impl Factors<'_> {
     #[inline(always)]
     fn pairs(&self) -> impl Iterator<Item = (&[f64], &[f64])> {
         let ([left, right], Range { start, end }) = (self.heights, self.inner.clone());
-        let lefts = self.left[start * left..end * left].chunks_exact(left);
-        lefts.zip(self.right[start * right..end * right].chunks_exact(right))
+        let lefts = self.left[start * left..end * left].chunks_exact(left.max(1));
+        lefts.zip(self.right[start * right..end * right].chunks_exact(right.max(1)))
     }
 }
 
@@ -305,6 +344,7 @@ mod tests {
         for (rows, inner, columns) in [(1, 1, 1), (7, 3, 2), (8, 5, 4), (37, 18, 19), (153, 60, 80)] {
             let (a, b) = (matrix(rows, inner), matrix(inner, columns));
             assert!((product(&a, &b) - &a * &b).amax() < 1e-12, "{rows} {inner} {columns}");
+            assert!((dot_products(&a, &a) - a.tr_mul(&a)).amax() < 1e-12);
             assert!((transposed_product(&a, &a) - a.tr_mul(&a)).amax() < 1e-12);
             let mut part = DMatrix::zeros(rows, columns);
             let (first, some) = (rows / 3, inner / 2);
