@@ -11,9 +11,10 @@ use super::alternatives::Alternatives;
 use super::data::FacetData;
 use super::facets::{Facets, Second};
 use super::fluorescence_search::{self, Fluorescing};
-use super::light::{Others, RivalLight, rival};
+use super::light::{Others, rival};
 use super::mixture::Mixture;
 use super::prior::Prior;
+use super::rival::Rival;
 use super::search::{Search, Sorted};
 use super::unknowns::{EXPOSURE, Expected};
 use super::verdict::EXPLAINED;
@@ -53,7 +54,7 @@ pub fn estimate_in_stated_light(
     prior: &Prior,
     start: Option<&[f64]>,
     others: Option<&Others>,
-) -> Result<(Estimate, Option<RivalLight>)> {
+) -> Result<(Estimate, Option<Rival>)> {
     let not_finite = || Error::Numeric("the facets are not finite".to_owned());
     let sorted = Sortings::of(data, prior, start).ok_or_else(not_finite)?;
     let rival = others.and_then(|others| rival(data, (&sorted.plain, &sorted.fluorescing), others, prior));

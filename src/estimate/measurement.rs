@@ -8,11 +8,13 @@ use std::slice;
 
 use super::data::FacetData;
 use super::fluorescence::Fluorescence;
-use super::light::{self, Candidate, Others, RivalLight, Shown};
+use super::light::{self, Candidate, Others, Shown};
 use super::measured::Measured;
+use super::other_camera::{OtherCameras, rival_camera};
 use super::photograph::day::Day;
 use super::photograph::{self, Parts, SheetEstimate, StatedScene, Unmodelled};
 use super::prior::Prior;
+use super::rival::Rival;
 use super::shading::Shading;
 use super::shadow::Shadow;
 use super::taking::{Stated, doubts_of_taking};
@@ -51,6 +53,8 @@ pub struct Inference<'a> {
     pub lights: &'a [Candidate],
     /// Alternatives to the stated light; `None` if none was stated, or several.
     pub other_lights: Option<&'a Others>,
+    /// Alternatives to the stated camera; `None` if there can be none.
+    pub other_cameras: Option<&'a OtherCameras>,
     /// Light and exposure inferred from a fold of a known sheet, if there is one.
     pub shown: Option<&'a Shown>,
     /// The facet grid of a panel, if the surface is a fold.
@@ -165,6 +169,12 @@ impl<'a> Inference<'a> {
             .other_lights
             .and_then(|others| light::rival_in_photograph(parts, (day, &modes), others, self.prior));
         doubts.splice(0..0, self.doubt_of_light(rival));
+        let is_named = photograph.making.taken_by != Default::default();
+        let camera = self
+            .other_cameras
+            .filter(|_| !is_named || parts.eye.is_stand_in)
+            .and_then(|others| rival_camera(parts, (day, &modes), others, self.prior));
+        doubts.extend(camera.map(|camera| camera.doubt_of_camera(&self.stated.camera)));
         if !photograph.by_chart {
             doubts.extend(other_exposure(facets.exposure, &real));
         }
@@ -209,8 +219,8 @@ impl<'a> Inference<'a> {
     }
 
     /// The doubt that a more probable light casts on the stated one.
-    fn doubt_of_light(&self, rival: Option<RivalLight>) -> Option<Doubt> {
-        Some(rival?.doubt(self.stated.lights.first()?))
+    fn doubt_of_light(&self, rival: Option<Rival>) -> Option<Doubt> {
+        Some(rival?.doubt_of_light(self.stated.lights.first()?))
     }
 
     /// An estimate with the verdict on it; `doubts` are those already known.

@@ -26,7 +26,9 @@ use crate::image::{
     REFINED_WITHIN_PX, measure_panels, open_sides, refine,
 };
 use crate::kernel::mesh::{TOLERANCE, respond};
-use crate::scene::{FoldSetting, MarkedPanels, PhotographedFold, Picture, other_lights, stated, stated_fold};
+use crate::scene::{
+    FoldSetting, MarkedPanels, PhotographedFold, Picture, other_cameras, other_lights, stated, stated_fold,
+};
 use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid, candidate_lights};
 use crate::stream::{self, Optics};
 
@@ -206,6 +208,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     let lights = setup.lights(photograph, fold.optics()?)?;
     let stated = stated(fold.optics()?, fold.is_daylight_assumed);
     let others = other_lights(fold.optics()?, fold.is_daylight_assumed);
+    let cameras = other_cameras(fold.optics()?);
     let inference = Inference {
         model: &model,
         wavelengths_nm: setup.wavelengths.wavelengths_nm(),
@@ -215,6 +218,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         stated: &if lights.is_empty() { stated } else { stated.but_light() },
         lights: &lights,
         other_lights: others.as_ref(),
+        other_cameras: cameras.as_ref(),
         shown: None,
         panel: Some(fold.fold.facets()),
     };

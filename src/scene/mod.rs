@@ -29,7 +29,7 @@ pub use folded_sheet::FoldedSheet;
 pub use marked::{MarkedPanels, stated_fold};
 pub use photograph::{PhotographedFold, Picture};
 pub use residuals::residuals;
-pub use sample::{other_lights, photographed, stated};
+pub use sample::{other_cameras, other_lights, photographed, stated};
 pub use stated_light::StatedSky;
 pub use surface::SurfaceSetting;
 

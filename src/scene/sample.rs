@@ -6,6 +6,7 @@ use crate::estimate::Exposure;
 use crate::estimate::light::Others;
 use crate::estimate::measured::Measured;
 use crate::estimate::measurement::Photographed;
+use crate::estimate::other_camera::OtherCameras;
 use crate::estimate::shadow::Shadow;
 use crate::estimate::taking::Stated;
 use crate::image::Making;
@@ -36,6 +37,12 @@ pub fn other_lights(
 ) -> Option<Others> {
     let is_stated = illuminants.len() == 1 && sky.is_none() && !is_daylight_assumed;
     (is_stated && camera.sensitivities.len() >= COLOURS).then(|| Others::before(grid, &camera.sensitivities))
+}
+
+/// Alternatives to the camera of a scene, if it sees colours.
+#[must_use]
+pub fn other_cameras(Optics { grid, camera, .. }: &Optics) -> Option<OtherCameras> {
+    (camera.sensitivities.len() == COLOURS).then(|| OtherCameras::than(grid, &camera.sensitivities))
 }
 
 /// The photograph in which the facets of a sample were measured, without those in shadows. Only for a `fold`

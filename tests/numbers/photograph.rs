@@ -5,11 +5,11 @@ use vfold::estimate::emission::{Backing, Emission};
 use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph::day::Day;
 use vfold::estimate::photograph::error::ModelError;
+use vfold::estimate::photograph::eye::Eye;
 use vfold::estimate::photograph::hypotheses::{
     Hypothesis, Mistake, hypotheses_without_bounces, usual_hypotheses,
 };
 use vfold::estimate::photograph::model::PhotographModel;
-use vfold::estimate::photograph::parts::Eye;
 use vfold::estimate::photograph::sheet_models::SheetModels;
 use vfold::estimate::photograph::{Parts, StatedScene};
 use vfold::estimate::prior::Prior;

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use vfold::Result;
 use vfold::estimate::light::{Candidate, Others, Shown};
 use vfold::estimate::measurement::Inference;
+use vfold::estimate::other_camera::OtherCameras;
 use vfold::estimate::prior::Prior;
 use vfold::estimate::taking::Stated;
 use vfold::estimate::unknowns::{SceneModel, Unknown};
-use vfold::scene::{FoldSetting, Setting, stated};
+use vfold::scene::{FoldSetting, Setting, other_cameras, stated};
 use vfold::spectrum::WavelengthGrid;
 use vfold::stream::Scene;
 
@@ -31,6 +32,8 @@ pub struct Context {
     pub lights: Vec<Candidate>,
     /// Alternatives to a stated light.
     pub other_lights: Option<Arc<Others>>,
+    /// Alternatives to the stated camera.
+    pub other_cameras: Option<OtherCameras>,
     /// Light and exposure inferred from a known fold.
     pub shown: Option<Shown>,
 }
@@ -53,7 +56,8 @@ impl Context {
         fit: &[&'static Unknown],
         (lights, other_lights, shown): (Vec<Candidate>, Option<Arc<Others>>, Option<Shown>),
     ) -> Result<Self> {
-        let stated = stated(&scene.optics()?, scene.is_daylight_assumed()?);
+        let optics = scene.optics()?;
+        let stated = stated(&optics, scene.is_daylight_assumed()?);
         let setting = Setting::of(scene)?;
         Ok(Self {
             grid: scene.grid()?,
@@ -67,6 +71,7 @@ impl Context {
             stated: if lights.is_empty() { stated } else { stated.but_light() },
             lights,
             other_lights,
+            other_cameras: other_cameras(&optics),
             shown,
         })
     }
@@ -82,6 +87,7 @@ impl Context {
             stated: &self.stated,
             lights: &self.lights,
             other_lights: self.other_lights.as_deref(),
+            other_cameras: self.other_cameras.as_ref(),
             shown: self.shown.as_ref(),
             panel: self.fold.as_ref().map(|fold| fold.fold.facets()),
         }

@@ -10,7 +10,7 @@ use nalgebra::DVector;
 
 use super::photograph::{LN_HOPELESS, daylight_of_known};
 use super::stated::LN_ODDS;
-use super::{Candidate, Others, RivalLight, ShownScenarios};
+use super::{Candidate, Others, ShownScenarios};
 use crate::error::{Error, Result};
 use crate::estimate::data::FacetData;
 use crate::estimate::facets::{Facets, Second};
@@ -18,6 +18,7 @@ use crate::estimate::family::SpectrumModel;
 use crate::estimate::gaussian::Gaussian;
 use crate::estimate::photograph::{KnownReflectance, Parts, ShownDaylight};
 use crate::estimate::prior::Prior;
+use crate::estimate::rival::Rival;
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::Normal;
 use crate::estimate::verdict::{Doubt, EXPLAINED};
@@ -44,7 +45,7 @@ pub struct Shown {
     /// Logarithm of the exposure of computed facets in the stated light.
     pub exposure: Option<Normal>,
     /// A light that is more probable than the stated one.
-    pub rival: Option<RivalLight>,
+    pub rival: Option<Rival>,
     /// What a photograph of the sheet reveals about unknown lights.
     pub scenarios: Option<ShownScenarios>,
     /// What it reveals about stated daylight.
@@ -101,7 +102,7 @@ impl KnownSheet {
         let named = iter::zip(others, &in_others)
             .filter_map(|(light, one)| Some((light.name.clone(), one.as_ref()?.ln_evidence(rms)?)));
         let ln_stated = stated.ln_evidence(rms).ok_or_else(not_finite)?;
-        let rival = RivalLight::of(named, ln_stated, LN_ODDS);
+        let rival = Rival::of(named, ln_stated, LN_ODDS);
         Ok(Shown { rival, exposure: stated.exposure, scenarios: None, daylight: None, rms })
     }
 
@@ -166,7 +167,7 @@ impl Shown {
     #[must_use]
     pub fn doubt(&self, stated: Option<&str>) -> Option<Doubt> {
         if let (Some(rival), Some(stated)) = (&self.rival, stated) {
-            let Doubt { because, remedy, .. } = rival.doubt(stated);
+            let Doubt { because, remedy, .. } = rival.doubt_of_light(stated);
             return Some(Doubt::new(format!("by the known fold, {because}"), remedy));
         }
         (self.rms >= EXPLAINED).then(|| {

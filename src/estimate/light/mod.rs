@@ -15,7 +15,7 @@ use std::iter;
 pub use ideal::estimate;
 pub use known::{KnownSheet, Shown};
 pub use photograph::{ShownScenarios, estimate_photograph};
-pub use stated::{Others, RivalLight, rival};
+pub use stated::{Others, rival};
 pub use stated_photograph::rival_in_photograph;
 
 use crate::camera::CameraResponse;
@@ -112,7 +112,9 @@ impl InferredLight {
     #[must_use]
     pub fn of<'p>(all: impl IntoIterator<Item = (Weighed, &'p [f64])>) -> Self {
         let (mut candidates, mut power, mut square) = (Vec::new(), Vec::new(), Vec::new());
-        for (light, own) in all.into_iter().filter(|(light, _)| light.probability > 0.0) {
+        for (mut light, own) in all.into_iter().filter(|(light, _)| light.probability > 0.0) {
+            // a sum of shares may exceed 1 by rounding
+            light.probability = light.probability.min(1.0);
             power.resize(own.len(), 0.0);
             square.resize(own.len(), 0.0);
             let mean = own.iter().sum::<f64>() / own.len() as f64;

@@ -6,7 +6,6 @@
 //! weighed by itself: if it makes the facets more than nineteen times as probable, it is more probable than
 //! the stated one.
 
-use std::fmt;
 use std::sync::OnceLock;
 
 use super::Candidate;
@@ -15,8 +14,8 @@ use crate::estimate::data::FacetData;
 use crate::estimate::facets::{Facets, Second};
 use crate::estimate::fluorescence_search::Fluorescing;
 use crate::estimate::prior::Prior;
+use crate::estimate::rival::{LN_AHEAD, Rival};
 use crate::estimate::search::{Search, Sorted};
-use crate::estimate::verdict::Doubt;
 use crate::spectrum::{WavelengthGrid, candidate_lights};
 
 /// Log evidence ratio that outweighs a statement: nineteen to one, rounded, as one statement in twenty is
@@ -25,15 +24,10 @@ pub(super) const LN_ODDS: f64 = 3.0;
 /// A stated light is not questioned if facets are no more improbable in it than this, in standard deviations
 /// over known sheets: what is that usual needs no other light to explain it.
 const USUAL: f64 = 0.5;
-/// Lights are searched if linear models predict that facets may become this much more probable, and are
-/// weighed by classes of spectra if they are this far ahead under all spectra as one, up to this number of
-/// lights: the contribution of classes varies between lights by less than the rest of [`LN_ODDS`].
-pub(super) const LN_AHEAD: f64 = 1.0;
+/// Lights are weighed by classes of spectra if they are [`LN_AHEAD`] under all spectra as one, up to this number.
 const DISTINCT_ODDS: usize = 3;
 /// First one light in this many is tried, as neighbours are similar.
 const STEP: usize = 6;
-/// Larger ratios are not reported exactly.
-const MOST_TIMES: f64 = 1e6;
 
 /// Facets in the stated light, under all spectra as one.
 pub type StatedScene = Sorted<(), Second>;
@@ -69,49 +63,6 @@ impl Others {
     }
 }
 
-/// A light that is more probable than the stated one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RivalLight {
-    /// Its name.
-    pub name: String,
-    /// Logarithm of how many times as probable it makes the facets.
-    pub ln_odds: f64,
-}
-
-impl RivalLight {
-    /// The one of `lights` with most evidence, if it is sufficiently ahead of the stated one.
-    pub(super) fn of(
-        lights: impl Iterator<Item = (String, f64)>,
-        ln_stated: f64,
-        ln_enough: f64,
-    ) -> Option<Self> {
-        let ahead = lights.map(|(name, ln_evidence)| Self { name, ln_odds: ln_evidence - ln_stated });
-        let most = ahead.max_by(|a, b| a.ln_odds.total_cmp(&b.ln_odds));
-        most.filter(|most| most.ln_odds > ln_enough)
-    }
-
-    /// The doubt that it casts on an estimate in light that was `stated`.
-    #[must_use]
-    pub fn doubt(&self, stated: &str) -> Doubt {
-        Doubt::new(
-            format!("{self} as the {stated} you gave"),
-            "check the light, or have it found (--illuminant unknown)",
-        )
-    }
-}
-
-impl fmt::Display for RivalLight {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let times = self.ln_odds.exp();
-        if times > MOST_TIMES {
-            return write!(f, "{} is more than a million times as probable", self.name);
-        }
-        // two digits: the evidence is an approximation
-        let unit = 10_f64.powf(times.log10().floor() - 1.0).max(1.0);
-        write!(f, "{} is {:.0} times as probable", self.name, (times / unit).round() * unit)
-    }
-}
-
 /// The light among `others`, if any, in which facets are much more probable than in the one that was
 /// `stated`, in which the sheet may fluoresce.
 pub fn rival(
@@ -119,7 +70,7 @@ pub fn rival(
     (stated, fluorescing): (&StatedScene, &[Fluorescing]),
     others: &Others,
     prior: &Prior,
-) -> Option<RivalLight> {
+) -> Option<Rival> {
     if stated.solution.surprise(1.0) < USUAL {
         return None;
     }
@@ -160,7 +111,7 @@ pub fn rival(
     let ln_stated = by_bands.fold(search.ln_evidence_by_classes(stated)?, |sum, own| {
         sum.max(own) + (-(sum - own).abs()).exp().ln_1p()
     });
-    RivalLight::of(by_classes, ln_stated, LN_ODDS)
+    Rival::of(by_classes, ln_stated, LN_ODDS)
 }
 
 /// The reflectance that looks the same to the camera in another light: a starting point.
@@ -199,26 +150,4 @@ pub(super) fn coarse_to_fine<'l, L, T>(
     all.sort_by(order);
     all.truncate(DISTINCT_ODDS);
     all.into_iter().map(|(at, one)| (&lights[at], one)).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn odds_are_said_to_two_digits() {
-        let text = |ln_odds: f64| RivalLight { name: "A".to_owned(), ln_odds }.to_string();
-        assert_eq!(text(412_f64.ln()), "A is 410 times as probable");
-        assert_eq!(text(23.4_f64.ln()), "A is 23 times as probable");
-        assert_eq!(text(30.0), "A is more than a million times as probable");
-    }
-
-    #[test]
-    fn a_light_must_make_up_for_the_statement() {
-        let of = |ln_evidence| {
-            RivalLight::of([("A".to_owned(), ln_evidence), ("B".to_owned(), -9.0)].into_iter(), 5.0, LN_ODDS)
-        };
-        assert_eq!(of(7.9), None);
-        assert_eq!(of(8.1).map(|one| one.name), Some("A".to_owned()));
-    }
 }

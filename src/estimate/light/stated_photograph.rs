@@ -9,13 +9,14 @@ use nalgebra::DVector;
 
 use super::Candidate;
 use super::photograph::{WITHOUT_SKY, is_of_flash};
-use super::stated::{LN_AHEAD, Others, RivalLight, coarse_to_fine};
+use super::stated::{Others, coarse_to_fine};
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::hypotheses::Hypothesis;
 use crate::estimate::photograph::sheet_models::SheetModel;
 use crate::estimate::photograph::{Modes, Parts, Photographs};
 use crate::estimate::prior::Prior;
+use crate::estimate::rival::{LN_AHEAD, Rival};
 use crate::estimate::search::{Search, Sorted};
 
 /// Log evidence ratio that outweighs a statement, four hundred to one: more than for computed facets, as a
@@ -62,7 +63,7 @@ pub fn rival_in_photograph(
     (day, modes): (Option<Day>, &Modes),
     others: &Others,
     prior: &Prior,
-) -> Option<RivalLight> {
+) -> Option<Rival> {
     let Modes { photographs, of_days } = modes;
     let days = day.map_or_else(|| Day::ALL.to_vec(), |day| vec![day]);
     let under_sky = Lit { name: String::new(), with_sky: parts.clone(), without_sky: Vec::new(), days };
@@ -102,7 +103,7 @@ pub fn rival_in_photograph(
         Search::new(&photographs.in_light_of(parts), prior).ln_evidence_by_classes(tried)
     };
     let of_lights = ahead.iter().filter_map(|(lit, best)| Some((lit.name.clone(), by_classes(lit, best)?)));
-    RivalLight::of(of_lights, by_classes(&stated, &best_of_stated)?, LN_ODDS)
+    Rival::of(of_lights, by_classes(&stated, &best_of_stated)?, LN_ODDS)
 }
 
 impl Lit {

@@ -59,6 +59,11 @@ impl<'a> Photographs<'a> {
         self.model(hypothesis, prior.broad()).map(|model| model.unknowns())
     }
 
+    /// The residuals at a point under a hypothesis; `None` if the model is not finite.
+    pub fn residuals(&self, hypothesis: Hypothesis, w: &DVector<f64>, prior: &Prior) -> Option<DVector<f64>> {
+        self.model(hypothesis, prior.broad()).map(|model| model.residuals(w))
+    }
+
     /// Transfers the point `w` of `other` photographs under a hypothesis to these; `None` if a model is not
     /// finite.
     pub fn carried(

@@ -14,6 +14,7 @@ pub mod conditions;
 pub mod corners;
 pub mod day;
 pub mod error;
+pub mod eye;
 mod family;
 pub mod finding;
 mod findings;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::conditions::{Conditions, Daylight, StatedScene};
+use super::eye::Eye;
 pub use super::sheets::Radiance;
 use super::sheets::Sheets;
 use crate::solve::dense::add;
@@ -129,37 +130,6 @@ impl Ambient {
     }
 }
 
-/// The camera's response to light of any spectrum.
-#[derive(Clone, Debug)]
-pub struct Eye {
-    /// Wavelengths, nm.
-    pub wavelengths_nm: Vec<f64>,
-    /// Sensitivity times the width of the waveband: waveband by channel.
-    pub sensitivities: DMatrix<f64>,
-    /// Possible errors of the sensitivities, each of one standard deviation: error by waveband, with its
-    /// channel.
-    pub errors: Vec<(usize, DVector<f64>)>,
-    /// True if the sensitivities are those of another camera, which stands in for this one.
-    pub is_stand_in: bool,
-    /// Stated power of the sun.
-    pub sun: DVector<f64>,
-    /// Stated power of the sky.
-    pub sky: DVector<f64>,
-    /// Mean daylight and its two characteristic vectors: waveband by three.
-    pub daylight: DMatrix<f64>,
-    /// The channel in which white is 1.
-    pub reference: usize,
-}
-
-impl Eye {
-    /// True if it is the same camera, judging by its sensitivities.
-    #[must_use]
-    pub fn is(&self, other: &Self) -> bool {
-        (&self.wavelengths_nm, &self.sensitivities) == (&other.wavelengths_nm, &other.sensitivities)
-            && self.errors == other.errors
-    }
-}
-
 /// All ingredients. The same fold in another light shares everything that does not depend on the light.
 #[derive(Clone, Debug)]
 pub struct Parts {
@@ -194,6 +164,12 @@ impl Parts {
         lit.eye.reference = lit.eye.sensitivities.tr_mul(&sun).imax();
         (lit.eye.sun, lit.eye.sky) = (sun.clone(), sun);
         lit
+    }
+
+    /// The same, taken by a camera with these sensitivities: one number per waveband for each channel.
+    #[must_use]
+    pub fn taken_by(&self, sensitivities: &[Vec<f64>]) -> Self {
+        Self { eye: self.eye.with(sensitivities, self.stated.priors), ..self.clone() }
     }
 
     /// The same in unstated daylight.

@@ -1,10 +1,10 @@
-//! Response of a scene's camera to light of any spectrum, and the errors of its sensitivities.
+//! The camera of a scene.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::camera::Predictor;
 use crate::error::Result;
-use crate::estimate::photograph::parts::Eye;
+use crate::estimate::photograph::eye::{Eye, errors};
 use crate::estimate::photograph::priors::Priors;
 use crate::spectrum::{Outside, WavelengthGrid, daylight_vectors};
 use crate::stream::Optics;
@@ -37,6 +37,7 @@ pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, priors: &Priors) -
     let is_stand_in = camera.stands_in.is_some();
     Ok(Eye {
         wavelengths_nm,
+        widths_nm: widths,
         sensitivities,
         errors,
         is_stand_in,
@@ -64,34 +65,4 @@ fn of_predicted(
     let widths = DVector::from_column_slice(widths);
     let errors = Predictor::new(grid)?.errors().into_iter();
     Ok(errors.map(|(channel, error)| (channel, peak * error.component_mul(&widths))).collect())
-}
-
-/// Smooth errors of the sensitivities. A channel with fewer than ten samples that see anything belongs to a
-/// narrow filter and is assumed exact.
-fn errors(
-    sensitivities: &[Vec<f64>],
-    wavelengths_nm: &[f64],
-    widths: &[f64],
-    priors: &Priors,
-) -> Vec<(usize, DVector<f64>)> {
-    let Priors { sensitivity_sd, sensitivity_step_nm, .. } = *priors;
-    let (first, last) = (wavelengths_nm[0], wavelengths_nm[wavelengths_nm.len() - 1]);
-    let count = ((last - first) / sensitivity_step_nm).round().max(1.0) as usize;
-    let mut all = Vec::new();
-    for (channel, curve) in sensitivities.iter().enumerate() {
-        let most = curve.iter().copied().fold(0.0, f64::max);
-        if curve.iter().filter(|value| **value > 1e-3 * most).count() < 10 {
-            continue;
-        }
-        for bump in 0..=count {
-            let middle = first + (last - first) * bump as f64 / count as f64;
-            let of = |band: usize| {
-                let off = (wavelengths_nm[band] - middle) / sensitivity_step_nm;
-                let envelope = (curve[band] / most).max(0.0).sqrt();
-                sensitivity_sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
-            };
-            all.push((channel, DVector::from_fn(wavelengths_nm.len(), |band, _| of(band))));
-        }
-    }
-    all
 }

@@ -1,0 +1,110 @@
+//! Tests whether a photograph contradicts the stated camera: under one sheet model, on the inferred kind of
+//! day, each measured camera is weighed against it.
+//!
+//! Another camera belongs to another spectrum, and the probability of that spectrum tells, as for lights
+//! ([`light`](super::light)). Errors of the sensitivities are unknowns, so that a camera with nearly the same
+//! curves is no rival.
+
+use std::sync::OnceLock;
+
+use super::photograph::day::Day;
+use super::photograph::hypotheses::Hypothesis;
+use super::photograph::sheet_models::SheetModel;
+use super::photograph::{Modes, Parts};
+use super::prior::Prior;
+use super::rival::{LN_AHEAD, Rival};
+use super::search::Search;
+use crate::camera::known_sensitivities;
+use crate::spectrum::WavelengthGrid;
+
+/// Log evidence ratio that outweighs a statement, fifty to one. Fitted to `../shared/train`: none of its 48
+/// correctly stated cameras is doubted; with a ratio of 3, one would be.
+const LN_ODDS: f64 = 4.0;
+/// Number of cameras searched, those that a linear model predicts to be the most probable.
+const SEARCHED: usize = 4;
+/// Orders of three channels other than their own.
+const ORDERS: [([usize; 3], &str); 5] =
+    [([2, 1, 0], "BGR"), ([0, 2, 1], "RBG"), ([1, 0, 2], "GRB"), ([1, 2, 0], "GBR"), ([2, 0, 1], "BRG")];
+
+/// A camera that may have taken a photograph: its sensitivities, one number per waveband for each channel.
+#[derive(Clone, Debug)]
+struct OtherCamera {
+    name: String,
+    sensitivities: Vec<Vec<f64>>,
+}
+
+/// Cameras that may have taken a photograph instead of the stated one, loaded on first use.
+#[derive(Clone, Debug)]
+pub struct OtherCameras {
+    grid: WavelengthGrid,
+    stated: Vec<Vec<f64>>,
+    cameras: OnceLock<Vec<OtherCamera>>,
+}
+
+impl OtherCameras {
+    /// Alternatives to a camera with these sensitivities, one number per waveband for each channel.
+    #[must_use]
+    pub fn than(grid: &WavelengthGrid, stated: &[Vec<f64>]) -> Self {
+        Self { grid: grid.clone(), stated: stated.to_vec(), cameras: OnceLock::new() }
+    }
+
+    /// The stated camera with its channels in another order, and all measured cameras.
+    fn cameras(&self) -> &[OtherCamera] {
+        self.cameras.get_or_init(|| {
+            let reordered =
+                ORDERS.iter().filter(|_| self.stated.len() == 3).map(|(order, letters)| OtherCamera {
+                    name: format!("a camera with its channels in the order {letters}"),
+                    sensitivities: order.map(|channel| self.stated[channel].clone()).to_vec(),
+                });
+            let measured = known_sensitivities(&self.grid).unwrap_or_default().into_iter();
+            let measured = measured.map(|known| OtherCamera {
+                name: known.camera.name(),
+                sensitivities: known.sensitivities.to_vec(),
+            });
+            reordered.chain(measured).collect()
+        })
+    }
+}
+
+/// The camera among `others`, if any, with which a photograph is much more probable than with the stated one,
+/// given the kind of `day` that has been inferred and the modes of its search.
+pub fn rival_camera(
+    parts: &Parts,
+    (day, modes): (Option<Day>, &Modes),
+    others: &OtherCameras,
+    prior: &Prior,
+) -> Option<Rival> {
+    let Modes { photographs, of_days } = modes;
+    let (day, mode) = of_days.iter().find(|(of, _)| day.is_none_or(|day| day == *of))?;
+    let hypothesis = Hypothesis::on_dull_day(*day, SheetModel::Family);
+    let mut search = Search::new(photographs, prior);
+    // the mode of a sheet that may emit light has more numbers
+    let start = Some(mode.clone()).filter(|w| Some(w.len()) == photographs.unknowns(hypothesis, prior));
+    let stated = search.sort((hypothesis, 0.0), start, f64::NEG_INFINITY)?;
+    let (test, residuals) = (search.score_test(&stated)?, &stated.solution.at.residuals);
+    let mut hopeful: Vec<_> = others
+        .cameras()
+        .iter()
+        .filter_map(|camera| {
+            let parts = parts.taken_by(&camera.sensitivities);
+            let family = photographs.in_light_of(&parts);
+            let start = family.carried((photographs, &stated.solution.w), hypothesis, prior)?;
+            let change = residuals - family.residuals(hypothesis, &start, prior)?;
+            let ln_gain = test.ln_gain_by(1.0, &change);
+            drop(family);
+            (ln_gain > LN_AHEAD).then_some((ln_gain, camera, parts, start))
+        })
+        .collect();
+    hopeful.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
+    let least = stated.ln_weight() + LN_AHEAD;
+    let by_classes = hopeful.into_iter().take(SEARCHED).filter_map(|(_, camera, parts, start)| {
+        let family = photographs.in_light_of(&parts);
+        let mut search = Search::new(&family, prior);
+        let tried = search.sort((hypothesis, 0.0), Some(start), least)?;
+        (tried.ln_weight() > least).then_some(())?;
+        Some((camera.name.clone(), search.ln_evidence_by_classes(&tried)?))
+    });
+    let by_classes: Vec<_> = by_classes.collect();
+    (!by_classes.is_empty()).then_some(())?;
+    Rival::of(by_classes.into_iter(), search.ln_evidence_by_classes(&stated)?, LN_ODDS)
+}

@@ -1,0 +1,84 @@
+//! The camera of a photograph: its response to light of any spectrum, and the errors of its sensitivities.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::priors::Priors;
+
+/// The camera's response to light of any spectrum.
+#[derive(Clone, Debug)]
+pub struct Eye {
+    /// Wavelengths, nm.
+    pub wavelengths_nm: Vec<f64>,
+    /// Widths of the wavebands, nm.
+    pub widths_nm: Vec<f64>,
+    /// Sensitivity times the width of the waveband: waveband by channel.
+    pub sensitivities: DMatrix<f64>,
+    /// Possible errors of the sensitivities, each of one standard deviation: error by waveband, with its
+    /// channel.
+    pub errors: Vec<(usize, DVector<f64>)>,
+    /// True if the sensitivities are those of another camera, which stands in for this one.
+    pub is_stand_in: bool,
+    /// Stated power of the sun.
+    pub sun: DVector<f64>,
+    /// Stated power of the sky.
+    pub sky: DVector<f64>,
+    /// Mean daylight and its two characteristic vectors: waveband by three.
+    pub daylight: DMatrix<f64>,
+    /// The channel in which white is 1.
+    pub reference: usize,
+}
+
+impl Eye {
+    /// A camera with other sensitivities, one number per waveband for each channel, in the same light.
+    #[must_use]
+    pub fn with(&self, sensitivities: &[Vec<f64>], priors: &Priors) -> Self {
+        let weighted = DMatrix::from_fn(self.widths_nm.len(), sensitivities.len(), |band, channel| {
+            sensitivities[channel][band] * self.widths_nm[band]
+        });
+        Self {
+            errors: errors(sensitivities, &self.wavelengths_nm, &self.widths_nm, priors),
+            is_stand_in: false,
+            reference: weighted.tr_mul(&self.sun).imax(),
+            sensitivities: weighted,
+            ..self.clone()
+        }
+    }
+
+    /// True if it is the same camera, judging by its sensitivities.
+    #[must_use]
+    pub fn is(&self, other: &Self) -> bool {
+        (&self.wavelengths_nm, &self.sensitivities) == (&other.wavelengths_nm, &other.sensitivities)
+            && self.errors == other.errors
+    }
+}
+
+/// Smooth errors of the sensitivities. A channel with fewer than ten samples that see anything belongs to a
+/// narrow filter and is assumed exact.
+#[must_use]
+pub fn errors(
+    sensitivities: &[Vec<f64>],
+    wavelengths_nm: &[f64],
+    widths: &[f64],
+    priors: &Priors,
+) -> Vec<(usize, DVector<f64>)> {
+    let Priors { sensitivity_sd, sensitivity_step_nm, .. } = *priors;
+    let (first, last) = (wavelengths_nm[0], wavelengths_nm[wavelengths_nm.len() - 1]);
+    let count = ((last - first) / sensitivity_step_nm).round().max(1.0) as usize;
+    let mut all = Vec::new();
+    for (channel, curve) in sensitivities.iter().enumerate() {
+        let most = curve.iter().copied().fold(0.0, f64::max);
+        if curve.iter().filter(|value| **value > 1e-3 * most).count() < 10 {
+            continue;
+        }
+        for bump in 0..=count {
+            let middle = first + (last - first) * bump as f64 / count as f64;
+            let of = |band: usize| {
+                let off = (wavelengths_nm[band] - middle) / sensitivity_step_nm;
+                let envelope = (curve[band] / most).max(0.0).sqrt();
+                sensitivity_sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
+            };
+            all.push((channel, DVector::from_fn(wavelengths_nm.len(), |band, _| of(band))));
+        }
+    }
+    all
+}
