@@ -241,6 +241,9 @@ impl Product<'_> {
     #[inline(always)]
     fn add<S: Simd>(self, simd: S, factor: S::f64s) {
         let Self { sum, height, factors, rows, columns } = self;
+        if rows.is_empty() {
+            return;
+        }
         let (mut column, mut sums) = (columns.start, sum.chunks_exact_mut(BLOCK * height));
         for sum in sums.by_ref() {
             factors.add_columns::<S, BLOCK>(simd, (sum, height), rows.clone(), column, factor);
@@ -362,6 +365,16 @@ mod tests {
             definite[(inner - 1, inner - 1)] = -1.0;
             assert!(cholesky(definite).is_none());
         }
+    }
+
+    #[test]
+    fn matrices_may_be_empty() {
+        for (rows, inner, columns) in [(0, 3, 2), (3, 0, 2), (3, 2, 0), (0, 0, 0)] {
+            let expected = DMatrix::zeros(rows, columns);
+            assert_eq!(product(&matrix(rows, inner), &matrix(inner, columns)), expected);
+        }
+        assert_eq!(squares(&matrix(0, 2)), DMatrix::zeros(2, 2));
+        assert_eq!(squares(&matrix(2, 0)).len(), 0);
     }
 
     #[test]
