@@ -1,6 +1,6 @@
-//! What estimates of many sheets are worth, their exposure known and free: how near they are, how often error
-//! bars hold the truth, how many end in a false maximum, and how long they take: mean, median, 95th percentile
-//! and worst, on one thread.
+//! What estimates of many sheets are worth, their exposure known and free: how near they are, how often
+//! error bars hold the truth, how many end in a false maximum, and how long they take on one thread: mean,
+//! median, 95th percentile and worst.
 //!
 //! `cargo bench --bench sets -- [--maxima] STREAM...` prints a row of a table for the samples of all streams
 //! together, which carry their true reflectance; with `--maxima` every sample is estimated from the truth,

@@ -113,8 +113,8 @@ impl Channels {
         along
     }
 
-    /// The sum over channels and sources in these amounts, per waveband, given what each source's sum is of the
-    /// terms.
+    /// The sum over channels and sources in these amounts, per waveband, given what each source's sum is of
+    /// the terms.
     pub fn sum_of(
         &self,
         terms: &DMatrix<f64>,

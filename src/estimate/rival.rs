@@ -4,9 +4,9 @@ use std::fmt;
 
 use super::verdict::Doubt;
 
-/// Others are searched if linear models predict that facets may become this much more probable, and are weighed
-/// by classes of spectra if they are this far ahead under all spectra as one: what classes contribute varies
-/// between lights and cameras by less than the rest of the odds that outweigh a statement.
+/// Others are searched if linear models predict that facets may become this much more probable, and are
+/// weighed by classes of spectra if they are this far ahead under all spectra as one: what classes contribute
+/// varies between lights and cameras by less than the rest of the odds that outweigh a statement.
 pub const LN_AHEAD: f64 = 1.0;
 /// Larger ratios are not reported exactly.
 const MOST_TIMES: f64 = 1e6;

@@ -205,10 +205,12 @@ fn factor_block(block: &mut [f64], count: usize, first: usize) -> bool {
     true
 }
 
-/// Columns of a tile of a product, whose sums stay in the processor's registers, and columns factored at once.
+/// Columns of a tile of a product, whose sums stay in the processor's registers, and columns factored at
+/// once.
 const BLOCK: usize = 4;
 
-/// The factors of a product `a·bᵀ`, column by column, with their numbers of rows, and the columns summed over.
+/// The factors of a product `a·bᵀ`, column by column, with their numbers of rows, and the columns summed
+/// over.
 #[derive(Clone)]
 struct Factors<'a> {
     left: &'a [f64],

@@ -24,7 +24,8 @@ pub(super) const LN_ODDS: f64 = 3.0;
 /// A stated light is not questioned if facets are no more improbable in it than this, in standard deviations
 /// over known sheets: what is that usual needs no other light to explain it.
 const USUAL: f64 = 0.5;
-/// Lights are weighed by classes of spectra if they are [`LN_AHEAD`] under all spectra as one, up to this number.
+/// Lights are weighed by classes of spectra if they are ahead by [`LN_AHEAD`] under all spectra as one, up to
+/// this number.
 const DISTINCT_ODDS: usize = 3;
 /// First one light in this many is tried, as neighbours are similar.
 const STEP: usize = 6;
