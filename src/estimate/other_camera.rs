@@ -20,8 +20,10 @@ use crate::spectrum::WavelengthGrid;
 /// Log evidence ratio that outweighs a statement, fifty to one. Fitted to `../shared/train`: none of its 48
 /// correctly stated cameras is doubted; with a ratio of 3, one would be.
 const LN_ODDS: f64 = 4.0;
-/// Number of cameras searched, those that a linear model predicts to be the most probable.
+/// Number of cameras searched, those that a linear model predicts to be the most probable, and the least
+/// logarithm of how many times as probable they must be by that forecast: half of the odds.
 const SEARCHED: usize = 4;
+const LN_HOPEFUL: f64 = 2.0;
 /// Orders of three channels other than their own.
 const ORDERS: [([usize; 3], &str); 5] =
     [([2, 1, 0], "BGR"), ([0, 2, 1], "RBG"), ([1, 0, 2], "GRB"), ([1, 2, 0], "GBR"), ([2, 0, 1], "BRG")];
@@ -92,7 +94,7 @@ pub fn rival_camera(
             let change = residuals - family.residuals(hypothesis, &start, prior)?;
             let ln_gain = test.ln_gain_by(1.0, &change);
             drop(family);
-            (ln_gain > LN_AHEAD).then_some((ln_gain, camera, parts, start))
+            (ln_gain > LN_HOPEFUL).then_some((ln_gain, camera, parts, start))
         })
         .collect();
     hopeful.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
