@@ -18,7 +18,7 @@ made_by=$(machine "$bin/vkernel")
     echo "$made_by"
     echo
     echo 'Simulated photographs (180 x 135 px, noise of 20000 electrons) of eight matt sheets of the ColorChecker, folded to 45° in the sun, with one'
-    echo 'thing wrong in each; controls have nothing wrong, or what people err by. The verdict was made with eight other sheets in view. Right: good,'
+    echo 'thing wrong in each; controls have nothing wrong, or what people err by. The verdict was made with eight other sheets in view, but for how many other cameras are searched. Right: good,'
     echo 'and off by at most 0.03. Held: good, and 85 per cent of the true values within two standard deviations. Lie: good, and neither. RMSE: mean of those that are called good.'
     echo
     "$python" -B benches/mistakes.py "$bin"

@@ -39,10 +39,10 @@ pub fn other_lights(
     (is_stated && camera.sensitivities.len() >= COLOURS).then(|| Others::before(grid, &camera.sensitivities))
 }
 
-/// Alternatives to the camera of a scene, if it sees colours.
+/// Alternatives to the camera of a scene, if it has three channels.
 #[must_use]
 pub fn other_cameras(Optics { grid, camera, .. }: &Optics) -> Option<OtherCameras> {
-    (camera.sensitivities.len() == COLOURS).then(|| OtherCameras::than(grid, &camera.sensitivities))
+    OtherCameras::than(grid, &camera.sensitivities)
 }
 
 /// The photograph in which the facets of a sample were measured, without those in shadows. Only for a `fold`

@@ -1,6 +1,5 @@
 //! Products and factors of dense matrices of ten to two hundred rows, computed with the widest vectors of the
-//! processor. A general library packs matrices of this size into blocks first, which takes longer than the
-//! product itself.
+//! processor. General libraries first pack matrices into blocks, which pays for larger ones alone.
 
 use std::ops::Range;
 use std::slice::ChunksExact;
