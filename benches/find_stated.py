@@ -9,7 +9,6 @@ are left out of both.
 
 import json
 import statistics
-import subprocess
 import sys
 import tempfile
 from collections import defaultdict
@@ -19,20 +18,23 @@ from pathlib import Path
 from photographs import Tools, of_real, table
 from sheets import errors, estimated, within
 
+# the confidence from which on vextract measures without asking
+SURE = 0.97
+
 
 def found_records(tools, sidecar, work):
-    """Records of a photograph of which camera and light are told; none if its fold is not surely found."""
+    """Records of a photograph of which camera and light are told; none if its fold is not surely found. A failing tool ends the run."""
     said = json.loads(sidecar.read_text(encoding="utf-8"))
     told, nm, photo = said["told"], said["wavelengths_nm"], sidecar.with_suffix(".tif")
     regions = work / "regions.json"
-    regions.write_text(tools.run("vextract", "-q", "--find", photo)[0], encoding="utf-8")
+    found = tools.run("vextract", "-q", "--find", photo)[0]
+    if json.loads(found).get("confidence", 0.0) < SURE:
+        return None
+    regions.write_text(found, encoding="utf-8")
     camera = table(work / "camera.csv", nm, told["camera_sensitivities_rgb"])
     light = table(work / "light.csv", nm, [told["illuminant_spd"]])
-    try:
-        scene, _ = tools.run("vkernel", "-q", "--regions", regions)
-        return tools.run("vextract", "-q", photo, "--regions", regions, "--camera", camera, "--illuminant", light, "--refine", given=scene)[0]
-    except subprocess.CalledProcessError:
-        return None
+    scene, _ = tools.run("vkernel", "-q", "--regions", regions)
+    return tools.run("vextract", "-q", photo, "--regions", regions, "--camera", camera, "--illuminant", light, "--refine", given=scene)[0]
 
 
 def measured(tools, sidecar):

@@ -35,8 +35,8 @@ pub use drawing::{
 };
 pub use edges::{Marked, REFINED_WITHIN_PX, Refinement, refine};
 pub use finding::{
-    DetectedChart, DetectedFold, NoFold, WeighedFold, find_chart, find_fold, find_fold_around, weighed_chart,
-    weighed_folds,
+    DetectedChart, DetectedFold, NoFold, WeighedFold, find_chart, find_fold, find_fold_and_chart,
+    find_fold_around, weighed_chart, weighed_folds,
 };
 pub use measuring::{
     FacetMeasurement, Making, MeasuredPanels, PixelRun, Processing, corner_orders, measure, measure_panels,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use vfold::cli;
 use vfold::image::{
     CornersBy, DetectedChart, DetectedFold, FoldSeen, Grid, Homography, Lens, NoFold, OtherFold, Photograph,
-    find_chart, find_fold,
+    find_fold, find_fold_and_chart,
 };
 use vfold::scene::stated_fold;
 use vfold::stream::{Output, Regions, Scene, detection_line, no_detection_line};
@@ -29,8 +29,8 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
             opened => opened?,
         };
         let lens = args.placing.lens(&photograph)?;
-        let fold = find_fold(&photograph, &lens);
-        let chart = sure_chart(&photograph, lens);
+        let (fold, chart) = find_fold_and_chart(&photograph, &lens);
+        let chart = chart.filter(DetectedChart::is_sure);
         if fold.is_ok() || chart.is_some() {
             draw(args, path, &photograph, (fold.as_ref().ok(), chart.as_ref()), lens)?;
         }
@@ -65,7 +65,8 @@ fn seen(args: &Args, photograph: &Photograph, lens: Lens) -> FoldSeen {
     }
 }
 
-/// Detects the panels of a fold and adds them to `regions`; returns the confidence.
+/// Detects the panels of a fold, and a chart unless a calibration target is stated, and adds them to
+/// `regions`; returns the confidence.
 ///
 /// # Errors
 /// [`Error::Picture`] if no fold is found, or its confidence is too low for measuring it without review.
@@ -76,7 +77,12 @@ pub fn find(
     lens: Lens,
     regions: &mut Regions,
 ) -> Result<f64> {
-    let found = find_fold(photograph, &lens).map_err(|none| not_found(path, &none))?;
+    let (fold, chart) = if regions.chart.is_none() && regions.white.is_none() {
+        find_fold_and_chart(photograph, &lens)
+    } else {
+        (find_fold(photograph, &lens), None)
+    };
+    let found = fold.map_err(|none| not_found(path, &none))?;
     if !found.is_sure() {
         draw(args, path, photograph, (Some(&found), None), lens)?;
         return Err(unsure(path, found.confidence));
@@ -89,6 +95,10 @@ pub fn find(
     regions.angle_deg = angle.map(|angle| angle.angle_deg);
     regions.angle_sd_deg = angle.map(|angle| angle.angle_sd_deg);
     regions.panels.extend(found.panels.into_iter().enumerate());
+    if let Some(chart) = chart.filter(DetectedChart::is_sure) {
+        regions.chart = Some(chart.corners);
+        regions.chart_confidence = Some(chart.confidence);
+    }
     Ok(found.confidence)
 }
 
@@ -106,19 +116,6 @@ pub fn other_fold(
     let (Some(panel0), Some(panel1)) = (corners(0), corners(1)) else { return Ok(None) };
     let seen = FoldSeen { corners_by, ..seen(args, photograph, args.placing.lens(photograph)?) };
     Ok(seen.other_than(&[panel0, panel1], &stated_fold(&fold, scene.angle_sd_deg()?)))
-}
-
-/// Detects a chart and adds it to `regions`, if its confidence is high.
-pub fn find_calibration(photograph: &Photograph, lens: Lens, regions: &mut Regions) {
-    if let Some(found) = sure_chart(photograph, lens) {
-        regions.chart = Some(found.corners);
-        regions.chart_confidence = Some(found.confidence);
-    }
-}
-
-/// The chart in a photograph, if its confidence is high.
-pub fn sure_chart(photograph: &Photograph, lens: Lens) -> Option<DetectedChart> {
-    find_chart(photograph, &lens).filter(DetectedChart::is_sure)
 }
 
 /// Remedy if detection fails.

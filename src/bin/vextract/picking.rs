@@ -6,7 +6,9 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use vfold::cli::{self, Reply, ServedFile};
-use vfold::image::{Photograph, Point, find_fold, find_fold_around, parse_point, write_preview};
+use vfold::image::{
+    DetectedChart, Photograph, Point, find_fold_and_chart, find_fold_around, parse_point, write_preview,
+};
 use vfold::stream::{Output, picked_line};
 use vfold::{Error, Result};
 
@@ -30,9 +32,9 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
     };
     let photograph = reading.open(path)?;
     let lens = args.placing.lens(&photograph)?;
-    let chart = finding::sure_chart(&photograph, lens);
-    let found =
-        finding::line(args, path, &photograph, lens, (&find_fold(&photograph, &lens), chart.as_ref()))?;
+    let (fold, chart) = find_fold_and_chart(&photograph, &lens);
+    let chart = chart.filter(DetectedChart::is_sure);
+    let found = finding::line(args, path, &photograph, lens, (&fold, chart.as_ref()))?;
     // the chart remains as the person marked it
     let around = |clicks| {
         let fold = find_fold_around(&photograph, &lens, clicks);

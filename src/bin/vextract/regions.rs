@@ -110,11 +110,6 @@ pub struct ResolvedRegions {
 }
 
 impl ResolvedRegions {
-    /// Whether nothing was stated.
-    pub fn are_none(&self) -> bool {
-        self.file.is_none() && self.flags == Regions::default()
-    }
-
     /// Those of one photograph.
     ///
     /// # Errors

@@ -52,11 +52,7 @@ impl Setup<'_> {
             regions.confidence
         } else {
             let lens = args.placing.lens(&photograph)?;
-            let confidence = finding::find(args, path, &photograph, lens, &mut regions)?;
-            if self.regions.are_none() {
-                finding::find_calibration(&photograph, lens, &mut regions);
-            }
-            Some(confidence)
+            Some(finding::find(args, path, &photograph, lens, &mut regions)?)
         };
         self.calibration.forget_spare(&mut regions);
         let panels = MarkedPanels::new(&self.panels, &regions.panels)?;

@@ -97,9 +97,11 @@ impl Side {
                 ((piece.place, gains), (piece.place, std::array::from_fn(whole)))
             };
             let (steps, whole): (Vec<_>, Vec<_>) = pieces.iter().map(of_piece).unzip();
-            let likelihoods = |gains: &[_]| lines().map(|line| log_likelihood(gains, line)).collect();
-            let of_steps: Vec<f64> = likelihoods(&steps);
-            Blurred { blur: *blur, says: greatest(&of_steps), likelihoods: likelihoods(&whole) }
+            let likelihoods =
+                |gains: &[_]| -> Vec<f64> { lines().map(|line| log_likelihood(gains, line)).collect() };
+            // a single blur needs no vote
+            let says = if blurs.len() > 1 { greatest(&likelihoods(&steps)) } else { 0.0 };
+            Blurred { blur: *blur, says, likelihoods: likelihoods(&whole) }
         };
         Look { reach_px, ends_here: inner.is_some(), blurred: blurs.iter().map(of_blur).collect() }
     }
@@ -125,9 +127,9 @@ impl Side {
                 let centre = lens.undistort(Point::new(x as f64 + 0.5, y as f64 + 0.5));
                 let from = Vector2::new(centre.x - self.from.x, centre.y - self.from.y);
                 let (along, across) = (from.dot(&self.along), from.dot(&self.across()));
-                if let Pixel::Light(light) = photograph.pixel(x, y)
-                    && (a..b).contains(&along)
+                if (a..b).contains(&along)
                     && across.abs() <= width_px
+                    && let Pixel::Light(light) = photograph.pixel(x, y)
                 {
                     pixels.push((across, Vector3::from(light)));
                 }

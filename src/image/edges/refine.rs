@@ -87,19 +87,19 @@ pub const REFINED_WITHIN_PX: f64 = 6.0;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px: f64) -> Result<Refinement> {
-    refine_in_sight(photograph, panels, lens, reach_px, f64::INFINITY)
+    refine_in_sight(photograph, panels, (lens, reach_px), None, f64::INFINITY)
 }
 
 /// As [`refine`], with each piece's penalty for a line limited to `most_of_piece`, in log likelihood, because
-/// something may hide it.
+/// something may hide it; `blur` is the picture's, by number, if known.
 pub(in crate::image) fn refine_in_sight(
     photograph: &Photograph,
     panels: &[Marked],
-    lens: &Lens,
-    reach_px: f64,
+    within: (&Lens, f64),
+    blur: Option<usize>,
     most_of_piece: f64,
 ) -> Result<Refinement> {
-    let settled = settle(photograph, panels, (lens, reach_px), (ROUNDS, None), most_of_piece)?;
+    let settled = settle(photograph, panels, within, (ROUNDS, blur), most_of_piece)?;
     let moved = |(from, to): (&Marked, &[Point; 4])| [0, 1, 2, 3].map(|k| from.corners[k].distance(to[k]));
     let sides = sides(panels);
     let without = sides

@@ -29,6 +29,8 @@ const NO_RIVAL: f64 = -10.0;
 pub(super) struct Candidate {
     /// In pixels of the reduced picture.
     pub outline: Outline,
+    /// Number of the blur of the reduced picture's edges.
+    pub blur: Option<usize>,
     /// Clues to whether all corners are right.
     pub clues: [f64; CLUES],
 }
@@ -51,7 +53,10 @@ pub(super) fn candidates(
     let blur = first.as_ref().and_then(|first| first.blur);
     let others: Vec<Refined> = others.par_iter().filter_map(|other| refine(other, blur)).collect();
     let refined: Vec<Refined> = first.into_iter().chain(others).collect();
-    let candidate = |n: usize| Candidate { outline: refined[n].now.outline, clues: clues(&refined, n) };
+    let candidate = |n: usize| {
+        let Refined { now, blur, .. } = &refined[n];
+        Candidate { outline: now.outline, blur: *blur, clues: clues(&refined, n) }
+    };
     let candidates = (0..refined.len()).map(candidate).collect();
     (hypotheses, candidates)
 }

@@ -1,5 +1,7 @@
 //! Straight chains of pixels that are locally brightest, or steepest, across the line.
 
+use rayon::prelude::*;
+
 use super::outline::Place;
 use super::plane::Plane;
 
@@ -52,25 +54,28 @@ impl EdgeMap {
 
     /// `of_eigen` computes strength and direction across from the mean of the eigenvalues, half their
     /// difference, and the eigenvector of the larger.
-    fn new([xx, yy, xy]: [&Plane; 3], of_eigen: impl Fn(f32, f32, [f32; 2]) -> (f32, [f32; 2])) -> Self {
+    fn new(
+        [xx, yy, xy]: [&Plane; 3],
+        of_eigen: impl Fn(f32, f32, [f32; 2]) -> (f32, [f32; 2]) + Sync,
+    ) -> Self {
         let width = xx.width;
-        let pixel = |((xx, yy), xy): ((&f32, &f32), &f32)| {
+        let pixel = |k: usize| {
+            let (xx, yy, xy) = (xx.values[k], yy.values[k], xy.values[k]);
             let (mean, difference) = ((xx + yy) / 2.0, (xx - yy) / 2.0);
-            let half = difference.hypot(*xy);
+            let half = (difference * difference + xy * xy).sqrt();
             let cos = if half > 0.0 { difference / half } else { 1.0 };
             let normal =
-                [((1.0 + cos) / 2.0).max(0.0).sqrt(), ((1.0 - cos) / 2.0).max(0.0).sqrt().copysign(*xy)];
+                [((1.0 + cos) / 2.0).max(0.0).sqrt(), ((1.0 - cos) / 2.0).max(0.0).sqrt().copysign(xy)];
             of_eigen(mean, half, normal)
         };
-        let (strength, across): (Vec<_>, Vec<_>) =
-            xx.values.iter().zip(&yy.values).zip(&xy.values).map(pixel).unzip();
+        let (strength, across): (Vec<_>, Vec<_>) = (0..xx.values.len()).into_par_iter().map(pixel).unzip();
         Self { width, height: strength.len() / width, strength, across }
     }
 
     /// Straight chains of at least `least_pixels` pixels with at least `least_strength`.
     pub fn chains(&self, least_strength: f32, least_pixels: usize) -> Vec<Segment> {
         let mut order: Vec<usize> =
-            (0..self.strength.len()).filter(|k| self.is_crest(*k, least_strength)).collect();
+            (0..self.strength.len()).into_par_iter().filter(|k| self.is_crest(*k, least_strength)).collect();
         let mut free = vec![false; self.strength.len()];
         order.iter().for_each(|k| free[*k] = true);
         order.sort_unstable_by(|a, b| self.strength[*b].total_cmp(&self.strength[*a]).then(a.cmp(b)));

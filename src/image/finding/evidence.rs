@@ -17,11 +17,24 @@ const END: f64 = 0.05;
 /// Pieces of a side, each of which needs an edge.
 const PIECES: usize = 6;
 
-/// Symmetric tensors of every pixel: xx, yy and xy of steps, of fine curvature and of coarse curvature.
+/// A symmetric tensor: xx, yy and xy, and a zero that fills a vector of the processor.
+#[derive(Debug, Clone, Copy)]
+struct Tensor([f32; 4]);
+
+/// Tensors of every pixel.
 pub(super) struct Evidence {
     pub width: usize,
     pub height: usize,
-    pixels: Vec<[f32; 9]>,
+    steps: Vec<Tensor>,
+    fine: Vec<Tensor>,
+    coarse: Vec<Tensor>,
+}
+
+/// The four pixels around a place: the number of the first, and the weights of all.
+#[derive(Clone, Copy)]
+struct Around {
+    first: usize,
+    weights: [f32; 4],
 }
 
 /// How well an edge lies along a side, each from 0 to 1.
@@ -61,19 +74,46 @@ pub(super) fn curvatures(plane: &Plane, sigma_px: f32) -> [Plane; 3] {
     [blurred.filtered(&curve, &smooth), blurred.filtered(&smooth, &curve), blurred.filtered(&scaled, &slope)]
 }
 
+impl Tensor {
+    /// Its value along a unit vector.
+    #[inline(always)]
+    fn along(&self, way: Place) -> f32 {
+        let Self([xx, yy, xy, _]) = self;
+        let (x, y) = (way.x as f32, way.y as f32);
+        x * x * xx + y * y * yy + 2.0 * x * y * xy
+    }
+}
+
 impl Evidence {
     pub fn new(steps: &[Plane; 3], fine: &[Plane; 3], coarse: &[Plane; 3]) -> Self {
         let width = steps[0].width;
-        let planes = [steps, fine, coarse].map(|planes| planes.each_ref().map(|plane| &plane.values[..]));
-        let pixel = |k: usize| std::array::from_fn(|n| planes[n / 3][n % 3][k]);
-        let pixels: Vec<_> = (0..steps[0].values.len()).into_par_iter().map(pixel).collect();
-        Self { width, height: pixels.len() / width, pixels }
+        let tensors = |[xx, yy, xy]: &[Plane; 3]| -> Vec<Tensor> {
+            let pixel = |k: usize| Tensor([xx.values[k], yy.values[k], xy.values[k], 0.0]);
+            (0..xx.values.len()).into_par_iter().map(pixel).collect()
+        };
+        let [steps, fine, coarse] = [steps, fine, coarse].map(tensors);
+        Self { width, height: steps.len() / width, steps, fine, coarse }
     }
 
     /// Strength of a step and of a ridge at a place, across the unit vector `across`; none outside the
     /// picture.
     #[inline]
     pub fn at(&self, place: Place, across: Place) -> Option<(f64, f64)> {
+        let around = self.around(place)?;
+        let step = self.between(&self.steps, around).along(across);
+        let ridge = -self.between(&self.fine, around).along(across);
+        Some((f64::from(step.max(0.0).sqrt()), f64::from(ridge.max(0.0))))
+    }
+
+    /// Strength of a step alone.
+    #[inline]
+    pub fn step_at(&self, place: Place, across: Place) -> Option<f64> {
+        let step = self.between(&self.steps, self.around(place)?).along(across);
+        Some(f64::from(step.max(0.0).sqrt()))
+    }
+
+    #[inline(always)] // of the innermost loop
+    fn around(&self, place: Place) -> Option<Around> {
         let (x, y) = ((place.x - 0.5) as f32, (place.y - 0.5) as f32);
         if !(x >= 0.0 && y >= 0.0) {
             return None;
@@ -83,19 +123,23 @@ impl Evidence {
             return None;
         }
         let (right, down) = (x - i as f32, y - j as f32);
-        let above = &self.pixels[j * self.width + i..][..2];
-        let below = &self.pixels[(j + 1) * self.width + i..][..2];
         let weights =
             [(1.0 - right) * (1.0 - down), right * (1.0 - down), (1.0 - right) * down, right * down];
-        let tensor: [f32; 6] = std::array::from_fn(|n| {
-            weights[0] * above[0][n]
-                + weights[1] * above[1][n]
-                + weights[2] * below[0][n]
-                + weights[3] * below[1][n]
-        });
-        let (nx, ny) = (across.x as f32, across.y as f32);
-        let along = |t: &[f32]| nx * nx * t[0] + ny * ny * t[1] + 2.0 * nx * ny * t[2];
-        Some((f64::from(along(&tensor[..3]).max(0.0).sqrt()), f64::from((-along(&tensor[3..])).max(0.0))))
+        Some(Around { first: j * self.width + i, weights })
+    }
+
+    #[inline(always)]
+    fn between(&self, tensors: &[Tensor], Around { first, weights }: Around) -> Tensor {
+        let above = &tensors[first..][..2];
+        let below = &tensors[first + self.width..][..2];
+        let mut mean = [0.0; 4];
+        for (n, mean) in mean.iter_mut().enumerate() {
+            *mean = weights[0] * above[0].0[n]
+                + weights[1] * above[1].0[n]
+                + weights[2] * below[0].0[n]
+                + weights[3] * below[1].0[n];
+        }
+        Tensor(mean)
     }
 
     /// Strength of a step and downward curvature of light across the unit vector `across`, at coarse scale,
@@ -106,11 +150,9 @@ impl Evidence {
         if !inside || x >= self.width || y >= self.height {
             return None;
         }
-        let t = self.pixels[y * self.width + x].map(f64::from);
-        let along = |k: usize| {
-            across.x * across.x * t[k] + across.y * across.y * t[k + 1] + 2.0 * across.x * across.y * t[k + 2]
-        };
-        Some((along(0).max(0.0).sqrt(), -along(6)))
+        let k = y * self.width + x;
+        let (step, curvature) = (self.steps[k].along(across), self.coarse[k].along(across));
+        Some((f64::from(step.max(0.0).sqrt()), f64::from(-curvature)))
     }
 
     /// How well an edge lies along a side: at each of `places` along it, the best of several `offsets_px`
@@ -153,11 +195,10 @@ impl Evidence {
             let (u, v) = (part(k / ACROSS), part(k % ACROSS));
             let place =
                 (quad[0] * (1.0 - v) + quad[1] * v) * (1.0 - u) + (quad[3] * (1.0 - v) + quad[2] * v) * u;
-            if let Some((x, _)) = self.at(place, Place::x())
-                && let Some((y, _)) = self.at(place, Place::y())
-            {
+            if let Some(around) = self.around(place) {
+                let Tensor([xx, yy, ..]) = self.between(&self.steps, around);
                 seen += 1.0;
-                edges += f64::from(x.hypot(y) > least);
+                edges += f64::from(f64::from(xx + yy) > least * least);
             }
         }
         if seen > 0.0 { edges / seen } else { 1.0 }

@@ -1,6 +1,7 @@
 //! The light of a panel: smooth, of one colour, and monotonic towards the crease.
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use rayon::prelude::*;
 
 use super::outline::{Place, Quad};
 use super::plane::Plane;
@@ -63,9 +64,9 @@ fn terms(k: usize) -> SVector<f64, TERMS> {
 impl LogLight {
     pub fn of(reduced: &Reduced) -> Self {
         let [r, g, b] = reduced.planes(|light| light).map(|plane: Plane| plane.blurred(BLUR_PX).values);
-        let values =
-            r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b].map(|light| light.max(LEAST).ln()));
-        Self { width: reduced.width, height: reduced.height, values: values.collect() }
+        let logarithms = |k: usize| [r[k], g[k], b[k]].map(|light| light.max(LEAST).ln());
+        let values = (0..r.len()).into_par_iter().map(logarithms).collect();
+        Self { width: reduced.width, height: reduced.height, values }
     }
 
     /// The light of the pixel at a place.

@@ -119,7 +119,30 @@ const LEAST_REACH_PX: f64 = 4.0;
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<DetectedFold, NoFold> {
-    most_probable(photograph, lens, LEAST_CONFIDENCE, |_| true)
+    most_probable(photograph, &Reduced::of(photograph), lens, LEAST_CONFIDENCE, |_| true)
+}
+
+/// The fold and the colour chart of a photograph, in less time than one after the other.
+///
+/// # Returns
+/// As [`find_fold`] and [`find_chart`].
+///
+/// # Example
+/// ```
+/// use vfold::image::{Lens, NoFold, Photograph, find_fold_and_chart};
+/// let empty = Photograph::from_light(240, 200, vec![0.1; 240 * 200])?;
+/// assert_eq!(find_fold_and_chart(&empty, &Lens::STRAIGHT), (Err(NoFold::Nothing), None));
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn find_fold_and_chart(
+    photograph: &Photograph,
+    lens: &Lens,
+) -> (Result<DetectedFold, NoFold>, Option<DetectedChart>) {
+    let reduced = Reduced::of(photograph);
+    rayon::join(
+        || most_probable(photograph, &reduced, lens, LEAST_CONFIDENCE, |_| true),
+        || chart::most_alike(photograph, &reduced, lens).map(|(chart, _)| chart),
+    )
 }
 
 /// The fold with two stated places, px, on its two panels, in either order; returned at any confidence,
@@ -141,22 +164,23 @@ pub fn find_fold_around(
     lens: &Lens,
     panels: [Point; 2],
 ) -> Result<DetectedFold, NoFold> {
-    most_probable(photograph, lens, 0.0, |outline| outline.has_panels_at(panels))
+    let reduced = Reduced::of(photograph);
+    most_probable(photograph, &reduced, lens, 0.0, |outline| outline.has_panels_at(panels))
 }
 
 /// The most probable fold that `may_be` accepts.
 fn most_probable(
     photograph: &Photograph,
+    reduced: &Reduced,
     lens: &Lens,
     least_confidence: f64,
     may_be: impl Fn(&Outline) -> bool,
 ) -> Result<DetectedFold, NoFold> {
-    let reduced = Reduced::of(photograph);
-    let (_, candidates) = candidates(&reduced, |outline| may_be(&outline.scaled(reduced.scale as f64)));
+    let (_, candidates) = candidates(reduced, |outline| may_be(&outline.scaled(reduced.scale as f64)));
     let trusted = candidates.iter().map(|candidate| (confidence(&candidate.clues), candidate));
     let best = trusted.max_by(|a, b| a.0.total_cmp(&b.0)).ok_or(NoFold::Nothing)?;
-    let (confidence, Candidate { outline, .. }) = best;
-    let nearest = nearest_to_frame(outline, &reduced);
+    let (confidence, Candidate { outline, blur, .. }) = best;
+    let nearest = nearest_to_frame(outline, reduced);
     if nearest < -BEYOND_PX || (confidence < DetectedFold::SURE && nearest < AT_EDGE_PX) {
         return Err(NoFold::Cut);
     }
@@ -166,7 +190,9 @@ fn most_probable(
     let scale = reduced.scale as f64;
     let outline = outline.scaled(scale).named();
     let reach_px = LEAST_REACH_PX.max(REACH_PX * scale + REACH_PX);
-    let refined = refine_in_sight(photograph, &outline.marked(), lens, reach_px, MOST_OF_PIECE).ok();
+    let blur = blur.filter(|_| reduced.scale == 1); // known of the picture itself
+    let within = (lens, reach_px);
+    let refined = refine_in_sight(photograph, &outline.marked(), within, blur, MOST_OF_PIECE).ok();
     let exact = refined.map(|refined| Outline::of_panels([refined.panels[0], refined.panels[1]]));
     let exact = exact.filter(Outline::may_be_fold).unwrap_or(outline);
     Ok(DetectedFold { panels: exact.points(), confidence })

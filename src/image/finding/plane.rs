@@ -1,5 +1,6 @@
 //! One number per pixel, and filters.
 
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 /// One number per pixel, row by row.
@@ -21,18 +22,16 @@ impl Plane {
             padded.resize(margin, row[0]);
             padded.extend_from_slice(row);
             padded.resize(width + 2 * margin, row[width - 1]);
-            for (k, weight) in across.iter().enumerate() {
-                out.iter_mut().zip(&padded[k..]).for_each(|(out, value)| *out += weight * value);
-            }
+            Arch::new().dispatch(WeightedSum { out, weights: across, row: |k| &padded[k..k + width] });
         });
         let height = rows.len() / width;
         let mut values = vec![0.0_f32; rows.len()];
         values.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
-            for (k, weight) in down.iter().enumerate() {
+            let row = |k: usize| {
                 let y = (y + k).saturating_sub(down.len() / 2).min(height - 1);
-                let row = &rows[y * width..(y + 1) * width];
-                out.iter_mut().zip(row).for_each(|(out, value)| *out += weight * value);
-            }
+                &rows[y * width..(y + 1) * width]
+            };
+            Arch::new().dispatch(WeightedSum { out, weights: down, row });
         });
         Self { width, values }
     }
@@ -50,6 +49,42 @@ impl Plane {
     pub fn sum(planes: &[Self; 3]) -> Self {
         let [r, g, b] = planes.each_ref().map(|plane| plane.values.iter());
         Self { width: planes[0].width, values: r.zip(g).zip(b).map(|((r, g), b)| r + g + b).collect() }
+    }
+}
+
+/// Pixels that are summed at once, in registers.
+const AT_ONCE: usize = 32;
+
+/// The sum of rows of pixels, each times its weight, with the processor's widest vectors.
+struct WeightedSum<'a, Row> {
+    out: &'a mut [f32],
+    weights: &'a [f32],
+    row: Row,
+}
+
+impl<'a, Row: Fn(usize) -> &'a [f32]> WithSimd for WeightedSum<'a, Row> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        let Self { out, weights, row } = self;
+        let (blocks, rest) = out.as_chunks_mut::<AT_ONCE>();
+        let done = blocks.len() * AT_ONCE;
+        for (block, out) in blocks.iter_mut().enumerate() {
+            let mut sums = [0.0; AT_ONCE];
+            for (k, weight) in weights.iter().enumerate() {
+                let values = &row(k)[block * AT_ONCE..][..AT_ONCE];
+                for n in 0..AT_ONCE {
+                    sums[n] += weight * values[n];
+                }
+            }
+            *out = sums;
+        }
+        for (k, weight) in weights.iter().enumerate() {
+            for (out, value) in rest.iter_mut().zip(&row(k)[done..]) {
+                *out += weight * value;
+            }
+        }
     }
 }
 

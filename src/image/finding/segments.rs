@@ -86,6 +86,7 @@ fn is_same(a: &Segment, b: &Segment) -> bool {
 fn joined(mut pieces: Vec<Segment>) -> Vec<Segment> {
     pieces.sort_by(|a, b| b.length().total_cmp(&a.length()));
     pieces.truncate(MOST_PIECES);
+    let lengths: Vec<f64> = pieces.iter().map(Segment::length).collect();
     let mut used = vec![false; pieces.len()];
     let mut lines = Vec::new();
     for n in 0..pieces.len() {
@@ -93,12 +94,15 @@ fn joined(mut pieces: Vec<Segment>) -> Vec<Segment> {
             continue;
         }
         used[n] = true;
-        let (mut line, mut covered, mut has_grown) = (pieces[n], pieces[n].length(), false);
-        // pieces are sorted, so the longest comes first
-        while let Some(next) = (n + 1..pieces.len()).find(|k| !used[*k] && continues(&line, &pieces[*k])) {
+        let (mut line, mut covered, mut has_grown) = (pieces[n], lengths[n], false);
+        loop {
+            // pieces are sorted, so the longest comes first
+            let grown = Line::of(&line);
+            let continues = |k: &usize| !used[*k] && grown.continues_with(&pieces[*k], lengths[*k]);
+            let Some(next) = (n + 1..pieces.len()).find(continues) else { break };
             used[next] = true;
             line = union(&line, covered, &pieces[next]);
-            covered += pieces[next].length();
+            covered += lengths[next];
             has_grown = true;
         }
         line.cover = (covered / line.length()).min(1.0);
@@ -110,22 +114,37 @@ fn joined(mut pieces: Vec<Segment>) -> Vec<Segment> {
     lines
 }
 
-/// Whether a piece lies on a line beyond one of its ends, not too far away.
-fn continues(line: &Segment, piece: &Segment) -> bool {
-    let length = line.length();
-    let along = (line.to - line.from) / length;
-    let ends = [piece.from, piece.to].map(|end| end - line.from);
-    let off = ends.map(|end| along.perp(&end).abs());
-    let [a, b] = ends.map(|end| along.dot(&end));
-    let (low, high) = (a.min(b), a.max(b));
-    let gap = (low - length).max(-high);
-    let beyond = gap.max(0.0);
-    let piece_length = piece.length();
-    off[0].max(off[1]) < OFF_PX + OFF_PER_GAP * beyond
-        && gap > -0.3 * piece_length
-        && gap < (GAP * length.max(20.0)).min(GAP_PX)
-        && piece_length > PIECE_PER_GAP * beyond
-        && (low < -1.0 || high > length + 1.0)
+/// A line that may be continued by pieces.
+struct Line {
+    from: Place,
+    along: Place,
+    length: f64,
+}
+
+impl Line {
+    fn of(segment: &Segment) -> Self {
+        let length = segment.length();
+        Self { from: segment.from, along: (segment.to - segment.from) / length, length }
+    }
+
+    /// Whether a piece of this length lies on the line beyond one of its ends, not too far away.
+    fn continues_with(&self, piece: &Segment, piece_length: f64) -> bool {
+        let ends = [piece.from - self.from, piece.to - self.from];
+        let off = self.along.perp(&ends[0]).abs().max(self.along.perp(&ends[1]).abs());
+        // most pieces are elsewhere
+        if off > OFF_PX + OFF_PER_GAP * GAP_PX {
+            return false;
+        }
+        let [a, b] = [self.along.dot(&ends[0]), self.along.dot(&ends[1])];
+        let (low, high) = (a.min(b), a.max(b));
+        let gap = (low - self.length).max(-high);
+        let beyond = gap.max(0.0);
+        off < OFF_PX + OFF_PER_GAP * beyond
+            && gap > -0.3 * piece_length
+            && gap < (GAP * self.length.max(20.0)).min(GAP_PX)
+            && piece_length > PIECE_PER_GAP * beyond
+            && (low < -1.0 || high > self.length + 1.0)
+    }
 }
 
 /// The line through two pieces, `covered` being the length of the first that has pixels.

@@ -75,13 +75,21 @@ fn line((from, to): (Place, Place), evidence: &Evidence, reach_px: f64, is_creas
     }
     let along = (to - from) / length;
     let across = perpendicular(along);
-    let strongest = |k: usize| {
+    let (mut found, mut strengths) = (Vec::with_capacity(PLACES), Vec::new());
+    for k in 0..PLACES {
         let part = END + (1.0 - 2.0 * END) * (k as f64 + 0.5) / PLACES as f64;
-        let (offset_px, strength) =
-            strongest(from + along * (part * length), across, evidence, reach_px, is_crease)?;
-        Some((part, offset_px, strength / (strength + HALF)))
-    };
-    let found: Vec<(f64, f64, f64)> = (0..PLACES).filter_map(strongest).collect();
+        strengths_across(
+            from + along * (part * length),
+            across,
+            evidence,
+            reach_px,
+            is_crease,
+            &mut strengths,
+        );
+        if let Some((offset_px, strength)) = strongest(&strengths) {
+            found.push((part, offset_px, strength / (strength + HALF)));
+        }
+    }
     if found.len() < FEWEST {
         return None;
     }
@@ -93,22 +101,31 @@ fn line((from, to): (Place, Place), evidence: &Evidence, reach_px: f64, is_creas
     (weight > 0.02).then_some(Line { from_px, to_px, weight })
 }
 
-/// Distance of the strongest edge from a side, px, and its strength.
-fn strongest(
+/// Strengths of edges at places across a side, [`STEP_PX`] apart and as many on either side of `place`.
+fn strengths_across(
     place: Place,
     across: Place,
     evidence: &Evidence,
     reach_px: f64,
     is_crease: bool,
-) -> Option<(f64, f64)> {
+    strengths: &mut Vec<f64>,
+) {
     let steps = (reach_px / STEP_PX).ceil() as i32;
-    let strength = |n: i32| {
-        let (step, ridge) =
-            evidence.at(place + across * (STEP_PX * f64::from(n)), across).unwrap_or_default();
-        let nearness = 1.0 - FAR * (f64::from(n) / f64::from(steps + 1)).powi(2);
-        nearness * if is_crease { step.max(ridge) } else { step }
-    };
-    let strengths: Vec<f64> = (-steps..=steps).map(strength).collect();
+    strengths.clear();
+    for n in -steps..=steps {
+        let place = place + across * (STEP_PX * f64::from(n));
+        let strength = if is_crease {
+            evidence.at(place, across).map(|(step, ridge)| step.max(ridge))
+        } else {
+            evidence.step_at(place, across)
+        };
+        let off = f64::from(n) / f64::from(steps + 1);
+        strengths.push((1.0 - FAR * off * off) * strength.unwrap_or_default());
+    }
+}
+
+/// Distance of the strongest edge from the middle one of places across a side, px, and its strength.
+fn strongest(strengths: &[f64]) -> Option<(f64, f64)> {
     let (at, best) = strengths.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     if best <= 0.0 {
         return None;
@@ -119,7 +136,7 @@ fn strongest(
         }
         _ => 0.0,
     };
-    Some((STEP_PX * (at as f64 - f64::from(steps) + between), best))
+    Some((STEP_PX * (at as f64 - (strengths.len() / 2) as f64 + between), best))
 }
 
 /// Offsets at both ends of the line fitted to offsets along a side, with outliers weighing less in each

@@ -17,6 +17,8 @@ mod view;
 
 pub use agreement::{OtherFold, StatedFold};
 
+use rayon::prelude::*;
+
 use super::placing::{Lens, Point};
 use fit::Sighting;
 use mixture::{Explanation, Mean, mean};
@@ -128,7 +130,7 @@ impl FoldSeen {
             CornersBy::Hand => MARKED,
         };
         let sighting = Sighting { corners: outline.corners, sd: corner * outline.side };
-        let explained = hypotheses.iter().flat_map(|hypothesis| {
+        let explained = hypotheses.par_iter().flat_map_iter(|hypothesis| {
             let fitted = sighting.fit(hypothesis).into_iter();
             fitted.map(|fitted| Explanation { form: hypothesis.form, fitted })
         });

@@ -1,6 +1,7 @@
 //! A rectified chart, made from all the photograph's pixels, and the light of its patches.
 
 use nalgebra::Matrix3;
+use rayon::prelude::*;
 
 use super::super::outline::Place;
 use super::super::reduced::of_pixel;
@@ -46,7 +47,7 @@ impl Flat {
             }
             sum.map(|sum| sum / (pixels * pixels) as f64)
         };
-        Self((0..WIDTH * HEIGHT).map(point).collect())
+        Self((0..WIDTH * HEIGHT).into_par_iter().map(point).collect())
     }
 
     /// Mean light in the middle of each patch.

@@ -93,8 +93,16 @@ pub fn find_chart(photograph: &Photograph, lens: &Lens) -> Option<DetectedChart>
 /// departures from the chart's colours.
 #[must_use]
 pub fn weighed_chart(photograph: &Photograph, lens: &Lens) -> Option<(DetectedChart, [f64; CLUES])> {
-    let reduced = Reduced::of(photograph);
-    let (scale, to_picture) = searched(&reduced)?;
+    most_alike(photograph, &Reduced::of(photograph), lens)
+}
+
+/// The same, with the reduced photograph.
+pub(super) fn most_alike(
+    photograph: &Photograph,
+    reduced: &Reduced,
+    lens: &Lens,
+) -> Option<(DetectedChart, [f64; CLUES])> {
+    let (scale, to_picture) = searched(reduced)?;
     let mut map = ideal(lens, &to_picture, scale)?;
     let mut half = HALF;
     for _ in 0..ROUNDS {
