@@ -42,6 +42,9 @@ const TYPES: [[usize; 2]; 15] = [
     [5, 5],
 ];
 
+/// Last of the overcast types.
+const LAST_OVERCAST: usize = 5;
+
 /// Numerical integration over height and azimuth: the error is less than 1e-4.
 const HEIGHTS: usize = 128;
 const AZIMUTHS: usize = 96;
@@ -67,6 +70,12 @@ impl StandardSky {
     #[must_use]
     pub fn number(self) -> usize {
         self.number
+    }
+
+    /// Whether clouds cover it: types 1 to 5.
+    #[must_use]
+    pub fn is_overcast(self) -> bool {
+        self.number <= LAST_OVERCAST
     }
 
     /// Irradiance of an unobstructed horizontal plane, on the scale of [`StandardSky::radiance`].

@@ -5,9 +5,6 @@ use nalgebra::Vector3;
 use crate::error::Result;
 use crate::geometry::{Fold, Light, LightSource};
 
-/// Standard skies up to this type count as overcast.
-const LAST_OVERCAST: usize = 6;
-
 /// The stated light on a fold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedLight {
@@ -70,7 +67,7 @@ impl StatedSky {
         match source {
             LightSource::OvercastSky { zenith, .. } => Some(Self { is_overcast: true, zenith: *zenith }),
             LightSource::StandardSky { sky, zenith, .. } => {
-                Some(Self { is_overcast: sky.number() <= LAST_OVERCAST, zenith: *zenith })
+                Some(Self { is_overcast: sky.is_overcast(), zenith: *zenith })
             }
             LightSource::Directional { .. }
             | LightSource::Point { .. }
