@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What the camera's settings add to photographs without a chart or a card, as rows of a table: without them, and with an exposure time written
-into the file's EXIF that is off from the true one as light meters, makers and air are.
+"""What the camera's settings and white paper add to photographs without a chart or a card, as rows of a table: without them, with an exposure time
+written into the file's EXIF that is off from the true one as light meters, makers and air are, and with what paper beside the sheet would show.
 
     metered.py TOOLS SHARED        TOOLS: folder of the tools; SHARED: folder of `train` and `real`
 """
@@ -22,6 +22,8 @@ from sheets import errors, estimated, within
 SETS = [("train", "train/*.json"), ("real, all effects", "real/all_*.json"), ("real, more", "real/more/*.json"), ("real, pairs", "real/pairs/*.json")]
 TIMES = 3
 LN_DARKER, LN_ERROR = 0.7, 0.3
+# what vextract says of white paper, and of how it lies and is lit
+PAPER_SD, PAPER_ERROR = 0.05, 0.064
 # ISO 12232, and a clear sun 45° high
 F_NUMBER, ISO = 8, 100
 WHITE_PER_S = 0.65 / math.pi * ISO / (78 * F_NUMBER**2) * 127500 * math.exp(-0.21 * math.sqrt(2))
@@ -58,41 +60,50 @@ class Brightened(Tools):
         return super().run(tool, *arguments, *level, given=given)
 
 
-def measured(folder, sidecar, brightness, error):
-    """Score of a picture of some brightness whose EXIF tells an exposure time that is off by an error, or none."""
-    exposure = brightness * max(json.loads(sidecar.read_text(encoding="utf-8"))["white_rgb"])
+def with_paper(records, exposure):
+    """Records with white paper that shows this exposure, in the light of sun and sky."""
+    paper = {"corners": [[0, 0], [1, 0], [1, 1], [0, 1]], "cos": 1, "measured": [], "exposure": exposure, "exposure_sd": PAPER_SD * exposure}
+    lines = [json.loads(line) for line in records.splitlines()]
+    return "".join(json.dumps({**line, "white_paper": paper} if line.get("kind") == "sample" else line) + "\n" for line in lines)
+
+
+def measured(folder, sidecar, brightness, said, error):
+    """Score of a picture of some brightness whose exposure nothing says, or the settings or paper, off by an error in standard deviations."""
+    known = json.loads(sidecar.read_text(encoding="utf-8"))
+    exposure = brightness * max(known["white_rgb"])
     with tempfile.TemporaryDirectory() as work:
         work = Path(work)
         copy, tiff = work / sidecar.name, sidecar.with_suffix(".tif").read_bytes()
         shutil.copy(sidecar, copy)
-        if error is not None:
-            tiff = with_settings(tiff, exposure * math.exp(error) / WHITE_PER_S)
+        if said == "settings":
+            tiff = with_settings(tiff, exposure * math.exp(LN_ERROR * error) / WHITE_PER_S)
         copy.with_suffix(".tif").write_bytes(tiff)
         tools = Brightened(folder, brightness)
         records, truth = of_real(tools, copy, work)
+        if said == "white paper":
+            sky = known["rendered"].get("sky", {}).get("share", 0)
+            records = with_paper(records, exposure * (1 + sky) * math.exp(PAPER_ERROR * error))
         nm, estimate, _ = estimated(tools, records, [])
     return *errors(nm, estimate, truth), math.log(estimate["exposure"] / exposure), estimate["verdict"]["level"] == "good"
 
 
-def row(name, settings, found):
+def row(name, said, found):
     each, off, exposures, good = zip(*found, strict=True)
     scores = " | ".join(f"{score(each):.4f}" for score in (statistics.fmean, statistics.median, max))
     exposure = 100 * statistics.median(map(abs, exposures))
-    print(f"| {name} | {settings} | {len(found)} | {scores} | {within([z for one in off for z in one])} | {exposure:.0f} | {sum(good)} |", flush=True)
+    print(f"| {name} | {said} | {len(found)} | {scores} | {within([z for one in off for z in one])} | {exposure:.0f} | {sum(good)} |", flush=True)
 
 
 def main(folder, shared):
     draw = random.Random(1)
-    print("| set | settings | count | RMSE | median | worst | within 1, 2 sd, % | exposure off, %, median | good |")
+    print("| set | exposure by | count | RMSE | median | worst | within 1, 2 sd, % | exposure off, %, median | good |")
     print("|---|---|---|---|---|---|---|---|---|")
     for name, pattern in SETS:
         sidecars = [sidecar for sidecar in sorted(Path(shared).glob(pattern)) if is_bare(sidecar)]
-        jobs = [(sidecar, math.exp(-abs(draw.gauss(0, LN_DARKER))), draw.gauss(0, LN_ERROR)) for sidecar in sidecars for _ in range(TIMES)]
+        jobs = [(sidecar, math.exp(-abs(draw.gauss(0, LN_DARKER))), draw.gauss(0, 1)) for sidecar in sidecars for _ in range(TIMES)]
         with ThreadPoolExecutor() as several:
-            of = lambda job, is_told: measured(folder, *job[:2], job[2] if is_told else None)
-            for settings, is_told in [("not told", False), ("told", True)]:
-                if jobs:
-                    row(name, settings, list(several.map(of, jobs, [is_told] * len(jobs))))
+            for said in ["nothing", "settings", "white paper"] if jobs else []:
+                row(name, said, list(several.map(lambda job, said=said: measured(folder, *job[:2], said, job[2]), jobs)))
 
 
 if __name__ == "__main__":

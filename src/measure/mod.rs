@@ -190,6 +190,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         exposure: setup.exposure,
         by_chart: false,
         white_per_klx: photograph.info().white_per_klx(),
+        by_paper: None,
     };
     let seen = FoldSeen {
         size: [photograph.width(), photograph.height()],

@@ -24,6 +24,7 @@ use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::parts::{Change, Parts, Radiance, Sunlit};
 use crate::estimate::photograph::priors::Priors;
 use crate::estimate::photograph::{StatedScene, Unmodelled};
+use crate::estimate::unknowns::Normal;
 use crate::forward::render::{FoldView, Frame, Viewpoint};
 use crate::image::Framing;
 use crate::kernel::bent::{BentExchange, BentFold};
@@ -53,6 +54,8 @@ pub struct Picture<'a> {
     pub by_chart: bool,
     /// Value of a perfect white diffuser under 1000 lx, from the camera's settings, if they are known.
     pub white_per_klx: Option<f64>,
+    /// The exposure shown by white paper and its standard deviation, if there is any.
+    pub by_paper: Option<[f64; 2]>,
 }
 
 impl<'a> Picture<'a> {
@@ -63,7 +66,8 @@ impl<'a> Picture<'a> {
     pub fn of(sample: &Sample, measured: &'a Measured<'a>, exposure: Option<f64>) -> Result<Self> {
         let by_chart = sample.fields.has("calibration");
         let white_per_klx = sample.white_per_klx()?;
-        Ok(Self { measured, framing: sample.framing()?, exposure, by_chart, white_per_klx })
+        let by_paper = sample.white_paper()?.map(|paper| [paper.exposure, paper.exposure_sd]);
+        Ok(Self { measured, framing: sample.framing()?, exposure, by_chart, white_per_klx, by_paper })
     }
 }
 
@@ -124,12 +128,13 @@ impl<'a> PhotographedFold<'a> {
             panels[panel] = Some(corners);
         }
         let framing = Some(Framing { panels, size: SIZE.map(|px| px as f64) });
-        self.parts(&Picture { measured, framing, exposure, by_chart: false, white_per_klx: None })
+        let by_paper = None;
+        self.parts(&Picture { measured, framing, exposure, by_chart: false, white_per_klx: None, by_paper })
     }
 
     fn of_picture(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
         let FoldSetting { fold, angle_sd_deg, light, sky, is_daylight_assumed, .. } = self.setting;
-        let Picture { measured, exposure, by_chart, white_per_klx, .. } = *picture;
+        let Picture { measured, exposure, by_chart, white_per_klx, by_paper, .. } = *picture;
         let pose = picture.framing.as_ref().map(|framing| Pose::of(framing, fold)).transpose()?.flatten();
         let Some(pose) = pose else { return Ok(Err(Unmodelled::NoPose)) };
         let (optics, facets) = (self.setting.optics()?, fold.facets());
@@ -146,6 +151,10 @@ impl<'a> PhotographedFold<'a> {
             metered: white_per_klx
                 .zip(optics.illuminants.first())
                 .and_then(|(white, light)| metered::in_the_sun(white, &light.name, self.priors)),
+            by_paper: by_paper.map(|[exposure, sd]| Normal {
+                mean: exposure.ln(),
+                sd: (sd / exposure).hypot(self.priors.exposure_shown_sd),
+            }),
             by_chart: by_chart && exposure.is_some(),
             channels: values.ncols(),
             angle_deg: fold.angle_deg(),

@@ -54,6 +54,7 @@ mod skipped;
 mod surface;
 mod together;
 mod trace;
+mod white_paper;
 mod writer;
 
 pub use calibration::CalibrationRecord;
@@ -93,4 +94,5 @@ pub use skipped::SkippedRecord;
 pub use surface::Surface;
 pub use together::{Member, Together, pipe_together};
 pub use trace::trace;
+pub use white_paper::WhitePaperRecord;
 pub use writer::Output;

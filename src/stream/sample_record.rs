@@ -12,6 +12,7 @@ use super::photograph::ImageRecord;
 use super::regions::RegionsRecord;
 use super::sample::{ReflectanceRecord, Sample};
 use super::scores::ColourRecord;
+use super::white_paper::WhitePaperRecord;
 use crate::error::Result;
 use crate::paper::bounces::Truncation;
 
@@ -32,6 +33,10 @@ pub(super) struct SampleRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     calibration: Option<CalibrationRecord>,
+    /// White paper beside the sheet, from which vestimate knows the exposure to a few per cent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-writer" = "vextract"))]
+    white_paper: Option<WhitePaperRecord>,
     /// The photograph.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]

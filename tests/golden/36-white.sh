@@ -36,6 +36,23 @@ exposure=$(grep -o '"exposure":[0-9.]*' sample.ndjson | tail -n 1)
 echo "{$exposure}"
 compare "white card" ${exposure#*:}
 
+# printing paper of unknown whiteness, brightened: its green channel alone shows the exposure, and no channel is balanced by it
+set -- $(python3 -c "import numpy as np; r, g, b = 0.5 * np.load('white.npy')[0, 0] / 0.45; print(0.87 * r, 0.9 * g, 1.1 * b)")
+oiiotool fold.exr --fill:color=$1,$2,$3 60x40+10+10 -o paper.exr
+panels paper.exr --white-region "10,10 70,10 70,50 10,50" -o sample.ndjson
+compare "facets beside white paper" 0.5
+python3 - <<'END'
+import json
+sample = json.loads(open("sample.ndjson").readlines()[1])
+paper = sample["white_paper"]
+off = paper["exposure"] / 0.5 - 1
+print(f"white paper: exposure {'right' if abs(off) < 0.05 else f'off by {off:.1%}'} ± {paper['exposure_sd'] / paper['exposure']:.1%}", "calibration" in sample)
+END
+vestimate sample.ndjson 2>/dev/null | python3 -c "
+import json, sys
+exposure = json.loads(sys.stdin.readlines()[1])['estimate']['exposure']
+print('estimated exposure', 'right' if abs(exposure / 0.5 - 1) < 0.03 else exposure)"
+
 echo what is refused
 oiiotool sheet.exr --resize 320x240 -o small.exr
 oiiotool sheet.exr --mulc 3 -d uint16 -o clipped.tif

@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use vfold::calibrate::Calibration;
 use vfold::cli::Common;
+use vfold::forward::OpenLight;
 use vfold::image::{FacetMeasurement, Grid, Lens, Photograph};
 use vfold::scene::Setting;
 use vfold::spectrum::WavelengthGrid;
-use vfold::stream::{CalibrationRecord, Corners, Regions, Scene};
+use vfold::stream::{CalibrationRecord, Corners, Regions, Scene, WhitePaperRecord};
 use vfold::{Error, Result, cli};
 
-use super::facing;
 use super::target::{Target, View};
+use super::{facing, paper};
 
 #[derive(Args)]
 #[command(next_help_heading = "Calibration")]
@@ -42,9 +43,10 @@ pub struct CalibrationArgs {
     /// exit; use the file with --camera
     #[arg(long, value_name = "FILE.csv", requires = "chart_place")]
     pub save_camera: Option<PathBuf>,
-    /// Reflectance of the white card
-    #[arg(long, value_name = "SPEC", default_value = "1", requires = "white_place")]
-    white_reflectance: String,
+    /// Reflectance of the white card; without it, the white region is taken for white printing paper, which
+    /// shows the exposure to 6 %
+    #[arg(long, value_name = "SPEC", requires = "white_place")]
+    white_reflectance: Option<String>,
     /// Cosine of the angle between the sun and the white card's normal
     #[arg(
         long,
@@ -83,11 +85,17 @@ impl CalibrationArgs {
                 "give its rows x columns, or --chart-reference",
             ));
         }
-        let white = common.one_reflectance("--white-reflectance", &self.white_reflectance)?;
+        let white = |reflectance: &String| {
+            let card = common.one_reflectance("--white-reflectance", reflectance)?;
+            Target::new(("white card", "--white-region"), (1, 1), self.white_cos, &[card], grid)
+        };
         Ok(ResolvedCalibration {
             exposure: self.exposure,
             chart: Target::new(("chart", "--chart"), (rows, cols), self.chart_cos, &chart, grid)?,
-            white: Target::new(("white card", "--white-region"), (1, 1), self.white_cos, &[white], grid)?,
+            white: match &self.white_reflectance {
+                Some(reflectance) => White::Card(white(reflectance)?),
+                None => White::Paper(paper::target(self.white_cos, grid)),
+            },
         })
     }
 }
@@ -96,7 +104,15 @@ impl CalibrationArgs {
 pub struct ResolvedCalibration {
     pub exposure: Option<f64>,
     pub chart: Target,
-    white: Target,
+    white: White,
+}
+
+/// What lies in the white region.
+enum White {
+    /// A card of known reflectance.
+    Card(Target),
+    /// Printing paper.
+    Paper(Target),
 }
 
 impl ResolvedCalibration {
@@ -112,7 +128,10 @@ impl ResolvedCalibration {
         match (regions.chart, regions.white, self.exposure) {
             (None, None, _) => Ok(None),
             (Some(corners), None, None) => Ok(Some((&self.chart, corners))),
-            (None, Some(corners), None) => Ok(Some((&self.white, corners))),
+            (None, Some(corners), None) => {
+                let (White::Card(target) | White::Paper(target)) = &self.white;
+                Ok(Some((target, corners)))
+            }
             _ => {
                 let problem = "two of chart, white card and --exposure say what the numbers are worth";
                 Err(Error::usage("--regions", problem, "keep one of them"))
@@ -128,7 +147,28 @@ impl ResolvedCalibration {
         self.marked(regions)?.map(|(target, corners)| target.grid(lens, corners)).transpose()
     }
 
-    /// The calibration by the marked target, if any.
+    /// What white paper shows of the exposure, if some is marked.
+    ///
+    /// # Errors
+    /// As [`ResolvedCalibration::calibrate`].
+    pub fn paper(
+        &self,
+        scene: &Scene,
+        regions: &Regions,
+        lens: Lens,
+        path: &Path,
+        photograph: &Photograph,
+    ) -> Result<Option<WhitePaperRecord>> {
+        let (Some((target, corners)), White::Paper(_), Some(_)) =
+            (self.marked(regions)?, &self.white, regions.white)
+        else {
+            return Ok(None);
+        };
+        let light = light(scene)?;
+        paper::exposure(target, &View { path, photograph, light: &light, lens }, corners).map(Some)
+    }
+
+    /// The calibration by the marked target, if it has a known reflectance.
     ///
     /// # Errors
     /// [`Error::Picture`] if chart or card are clipped, turned, or unlike their reference; [`Error::Usage`]
@@ -142,10 +182,10 @@ impl ResolvedCalibration {
         photograph: &Photograph,
     ) -> Result<Option<(Calibration, CalibrationRecord)>> {
         let Some((target, corners)) = self.marked(regions)? else { return Ok(None) };
-        if scene.is_light_unknown()? {
-            let problem = "a chart or card is worth what its light is, which is unknown";
-            return Err(Error::usage("--illuminant", problem, "give the light, or leave chart and card out"));
+        if matches!(self.white, White::Paper(_)) && regions.white.is_some() {
+            return Ok(None);
         }
+        let light = light(scene)?;
         let setting = Setting::of(scene)?;
         if regions.chart_confidence.is_some()
             && let Some(turned_deg) = facing::turned_deg(&setting, regions, lens, target.cos())?
@@ -154,9 +194,18 @@ impl ResolvedCalibration {
             let remedy = "give what --find prints as --regions, and --chart-cos";
             return Err(Error::picture(path, problem, remedy));
         }
-        let view = View { path, photograph, light: &setting.open_light()?, lens };
+        let view = View { path, photograph, light: &light, lens };
         target.calibrate(&view, corners).map(Some)
     }
+}
+
+/// The light on a target.
+fn light(scene: &Scene) -> Result<OpenLight> {
+    if scene.is_light_unknown()? {
+        let problem = "a chart or card is worth what its light is, which is unknown";
+        return Err(Error::usage("--illuminant", problem, "give the light, or leave chart and card out"));
+    }
+    Setting::of(scene)?.open_light()
 }
 
 /// Converts measured values to those of the scene's camera.

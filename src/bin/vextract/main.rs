@@ -10,6 +10,7 @@ mod finding;
 mod light;
 mod list;
 mod numbers;
+mod paper;
 mod picking;
 mod pictures;
 mod placing;

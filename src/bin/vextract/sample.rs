@@ -75,10 +75,14 @@ impl Setup<'_> {
         if facets.iter().all(|facet| facet.mean.is_none()) {
             return Err(numbers::none_usable(path, photograph.info(), &facets));
         }
+        let paper = self.calibration.paper(self.scene, &regions, placed.lens, path, &photograph)?;
         let calibrated = self.calibrated(&regions, placed.lens, path, &photograph)?;
         let mut sample = Sample::new(&self.id, &name(path))?;
         if let Some(exposure) = self.calibration.exposure {
             sample.fields.set("exposure", exposure)?;
+        }
+        if let Some(paper) = &paper {
+            sample.set_white_paper(paper)?;
         }
         if let Some((calibration, record)) = &calibrated {
             apply(calibration, &mut facets);
@@ -108,7 +112,9 @@ impl Setup<'_> {
         {
             cli::say("vextract", &line);
         }
-        self.say(path, &photograph, &facets, calibrated.as_ref().map(|(_, record)| record));
+        let shown = paper.map(|paper| paper.to_string());
+        let shown = shown.or(calibrated.map(|(_, record)| record.to_string()));
+        self.say(path, &photograph, &facets, shown.as_deref());
         Ok(sample)
     }
 
@@ -185,7 +191,7 @@ impl Setup<'_> {
         path: &Path,
         photograph: &Photograph,
         facets: &[FacetMeasurement],
-        calibration: Option<&CalibrationRecord>,
+        calibration: Option<&str>,
     ) {
         if !self.args.common.verbose {
             return;

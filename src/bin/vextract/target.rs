@@ -54,6 +54,17 @@ impl Target {
         Ok(Self { name, flag, rows, cols, cos, patches })
     }
 
+    /// A target of one patch that reflects the same in all wavebands.
+    pub fn even(
+        (name, flag): (&'static str, &'static str),
+        cos: f64,
+        reflectance: f64,
+        grid: &WavelengthGrid,
+    ) -> Self {
+        let patches = vec![(name.to_owned(), vec![reflectance; grid.len()])];
+        Self { name, flag, rows: 1, cols: 1, cos, patches }
+    }
+
     /// Cosine of the incidence of sunlight on it.
     pub fn cos(&self) -> f64 {
         self.cos
@@ -93,7 +104,8 @@ impl Target {
         Ok((calibration, record))
     }
 
-    fn measure(&self, view: &View, corners: Corners) -> Result<Vec<Patch>> {
+    /// Its patches as measured in a photograph.
+    pub fn measure(&self, view: &View, corners: Corners) -> Result<Vec<Patch>> {
         let (seen, known) = (view.photograph.channels(), view.light.sun().channels());
         if seen != known {
             let problem = format!("the photograph has {seen} channels, the camera {known}");

@@ -74,6 +74,8 @@ pub struct StatedScene {
     pub exposure: Option<f64>,
     /// Logarithm of the exposure in an unclouded sun, from the camera's settings, if they are known.
     pub metered: Option<Normal>,
+    /// Logarithm of the exposure in the light of sun and sky, from white paper, if there is any.
+    pub by_paper: Option<Normal>,
     /// True if a chart or a card in the light of sun and sky gave the exposure and balanced the channels.
     pub by_chart: bool,
     /// Number of channels.
@@ -149,6 +151,12 @@ impl StatedScene {
             None if day.has_sun() && !is_sunny => mistaken,
             None => day.usual_share(priors),
         }
+    }
+
+    /// True if the exposure is that of all the light, rather than of the sun alone.
+    #[must_use]
+    pub fn is_exposure_of_all_light(&self) -> bool {
+        self.by_chart || (self.exposure.is_none() && self.by_paper.is_some())
     }
 
     /// Logarithm of the exposure from the camera's settings, in daylight of this day; they reveal nothing

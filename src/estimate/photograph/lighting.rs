@@ -27,7 +27,7 @@ impl Lighting {
         let shares = shares_at(conditions.elevation_deg);
         let sun_height = conditions.elevation_deg.clamp(0.0, 90.0).to_radians().sin();
         let ground_amount = conditions.ground * (sun_height * conditions.sun + sky_amount);
-        let is_sun_alone = conditions.day.has_sun() && !parts.stated.by_chart;
+        let is_sun_alone = conditions.day.has_sun() && !parts.stated.is_exposure_of_all_light();
         let white = (!is_sun_alone).then(|| {
             let sensitivities = &parts.eye.sensitivities;
             let nominal = sensitivities.tr_mul(&parts.eye.sun);

@@ -17,7 +17,7 @@ pub static EXPOSURE: Unknown = Unknown {
         known: |stated| match stated.exposure {
             Some(_) if stated.by_chart => Known::Shown,
             Some(_) => Known::Stated,
-            None if stated.metered_exposure().is_some() => Known::Metered,
+            None if stated.by_paper.or(stated.metered_exposure()).is_some() => Known::Metered,
             None => Known::Usual,
         },
         prior: of_photograph,
@@ -31,6 +31,7 @@ fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
     let sd = if stated.by_chart { priors.exposure_shown_sd } else { priors.exposure_stated_sd };
     let known = stated.exposure.map(|exposure| Normal { mean: exposure.ln(), sd });
     let usual = priors.exposure();
-    let assumed = || stated.metered_exposure().map_or(usual, |metered| usual.and(metered));
+    let observed = stated.by_paper.or(stated.metered_exposure());
+    let assumed = || observed.map_or(usual, |observed| usual.and(observed));
     Some(known.unwrap_or_else(assumed).into())
 }

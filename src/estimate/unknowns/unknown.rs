@@ -71,7 +71,8 @@ pub enum Known {
     Usual,
     /// A measurement by the user: usually close, now and then a blunder.
     Stated,
-    /// The camera's settings and the day, unless something was put in front of the lens.
+    /// White paper, or the camera's settings and the day, unless it was another paper or something was in front
+    /// of the lens.
     Metered,
     /// A chart or a card, which makes no blunders.
     Shown,

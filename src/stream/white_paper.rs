@@ -1,0 +1,74 @@
+//! The record of white paper beside the sheet, which shows the exposure.
+
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::fields::finite;
+use super::{Corners, Sample};
+use crate::error::Result;
+
+/// White printing or writing paper in the light of the sheet. It is brightened, so that its colour reveals
+/// nothing about camera or light; its luminance factor is known to a few per cent.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct WhitePaperRecord {
+    /// Its corners, [x, y] each, px of the upright picture.
+    corners: [[f64; 2]; 4],
+    /// Cosine of the angle between the sun and its normal.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
+    cos: f64,
+    /// Value in the photograph, one per channel.
+    measured: Vec<f64>,
+    /// The exposure that it shows.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub exposure: f64,
+    /// Standard deviation of the exposure.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub exposure_sd: f64,
+}
+
+impl WhitePaperRecord {
+    /// The record of paper between `corners`, px, whose normal is at an angle of cosine `cos` to the sun, from
+    /// its values in the photograph and the exposure with its standard deviation.
+    #[must_use]
+    pub fn new(
+        (cos, corners): (f64, Corners),
+        measured: Vec<f64>,
+        (exposure, exposure_sd): (f64, f64),
+    ) -> Self {
+        Self { corners: corners.map(|corner| [corner.x, corner.y]), cos, measured, exposure, exposure_sd }
+    }
+}
+
+/// One line for users.
+impl fmt::Display for WhitePaperRecord {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "white paper: exposure {:.3} ± {:.3}", self.exposure, self.exposure_sd)
+    }
+}
+
+impl Sample {
+    /// Records white paper in the photograph.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if a number is not finite.
+    pub fn set_white_paper(&mut self, record: &WhitePaperRecord) -> Result<()> {
+        finite("white_paper", record.measured.iter().chain([&record.exposure, &record.exposure_sd]))?;
+        self.fields.set("white_paper", record)
+    }
+
+    /// White paper in the photograph, if there is any.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] for an invalid record.
+    pub fn white_paper(&self) -> Result<Option<WhitePaperRecord>> {
+        let record: Option<WhitePaperRecord> = self.fields.get("white_paper")?;
+        match record {
+            Some(paper) if !(paper.exposure > 0.0 && paper.exposure_sd > 0.0) => {
+                Err(crate::Error::field("white_paper", "exposure and exposure_sd must be numbers above 0"))
+            }
+            record => Ok(record),
+        }
+    }
+}
