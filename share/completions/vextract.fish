@@ -190,7 +190,7 @@ complete -c vextract -l chart-reference -d 'Reflectances of the chart\'s patches
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vextract -l white-reflectance -d 'Reflectance of the white card' -r -F -a "cc24\t''
+complete -c vextract -l white-reflectance -d 'Reflectance of the white card; without it, the white region is taken for white printing paper, which shows the exposure to 6 %' -r -F -a "cc24\t''
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"

@@ -29,8 +29,8 @@ pub struct WhitePaperRecord {
 }
 
 impl WhitePaperRecord {
-    /// The record of paper between `corners`, px, whose normal is at an angle of cosine `cos` to the sun, from
-    /// its values in the photograph and the exposure with its standard deviation.
+    /// The record of paper between `corners`, px, whose normal is at an angle of cosine `cos` to the sun:
+    /// its values in the photograph, and the exposure with its standard deviation.
     #[must_use]
     pub fn new(
         (cos, corners): (f64, Corners),

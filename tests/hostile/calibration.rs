@@ -121,7 +121,16 @@ END
             case("sh chart --chart-reference dark.csv --chart-grid 1x2", 1, &["dark:a", "no light"]),
             case("sh card --white-reflectance cc24", 2, &["--white-reflectance", "a set"]),
             case("sh card --white-reflectance 1.2", 1, &["1.2", "0..1"]),
-            case("sh marked --white-region '1,1 9,1 9,9 1,9'", 1, &["white card", "does not rise"]),
+            case(
+                "sh marked --white-region '1,1 9,1 9,9 1,9'",
+                1,
+                &["white paper", "no light", "--white-region"],
+            ),
+            case(
+                "sh marked --white-region '1,1 9,1 9,9 1,9' --white-reflectance 0.9",
+                1,
+                &["white card", "does not rise"],
+            ),
             case(
                 "vextract grey.tif --scene scene.json --camera canon-5d-mark-ii \
                  --panel0 '332,462 345,77 122,12 104,442' --white-region '200,200 260,200 260,260 200,260'",

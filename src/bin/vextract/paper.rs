@@ -6,8 +6,8 @@ use vfold::{Error, Result};
 
 use super::target::{Target, View};
 
-/// Luminance factor of white printing and office paper, L* 93.5 to 97, and its relative standard deviation. For
-/// print: ISO 12647-2:2013, table 2.
+/// Luminance factor of white printing and office paper, L* 93.5 to 97, and its relative standard deviation.
+/// For print: ISO 12647-2:2013, table 2.
 const LUMINANCE_FACTOR: f64 = 0.88;
 const LUMINANCE_FACTOR_SD: f64 = 0.05;
 

@@ -71,8 +71,8 @@ pub enum Known {
     Usual,
     /// A measurement by the user: usually close, now and then a blunder.
     Stated,
-    /// White paper, or the camera's settings and the day, unless it was another paper or something was in front
-    /// of the lens.
+    /// White paper, unless it was another; or the camera's settings and the day, unless something was put in
+    /// front of the lens.
     Metered,
     /// A chart or a card, which makes no blunders.
     Shown,
