@@ -62,7 +62,7 @@ END
             case(
                 "sh whole photo.exr --panel 0='332,462 345,77 485,17 472,446'",
                 2,
-                &["--panel", "panel 0 is given twice"],
+                &["--panel", "panel 0 is stated twice"],
             ),
             case("sh whole photo.exr --panel '332,462 345,77 485,17 472,446'", 2, &["--panel", "N="]),
             case("sh extract photo.exr ''", 2, &["--panel0", "0 corners"]),

@@ -72,7 +72,7 @@ fn an_angle_that_is_told_wins_and_is_compared() {
     assert!((number(&told["angle_deg"]) - 50.2).abs() < 1e-9 && told.get("angle_sd_deg").is_none(), "{told}");
     assert_eq!(said, "");
     let (_, said) = angle("--angle-deg 45");
-    assert_eq!(said, "vkernel: -: the corners say 50.0 ± 0.3°, --angle-deg 45, which is taken\n");
+    assert_eq!(said, "vkernel: -: the corners show 50.0 ± 0.3°; --angle-deg 45 is used instead\n");
     assert_eq!(angle("--angle-deg 45 -q").1, "");
     let (of_square, _) = angle("--panel 2x2");
     assert!((number(&of_square["angle_deg"]) - 50.0).abs() < 0.3, "{of_square}");
@@ -133,14 +133,12 @@ fn corners_of_the_picker_tell_the_angle() {
     let half = r#"{"panel0": [[332, 462], [345, 77], [122, 12], [104, 442]], "width": 640, "height": 480}"#;
     assert!(refused(half, "").contains("no corners of panel1"));
     let vague = sized.replace("{\"panel0", "{\"angle_deg\": 50, \"angle_sd_deg\": 8, \"panel0");
-    assert!(
-        refused(&vague, "").contains("the corners tell the angle to 8° only, 50°; give the panels' form")
-    );
+    assert!(refused(&vague, "").contains("the corners fix the angle only to 50 ± 8°; give the panels'"));
     assert!(refused(r#"{"found": false, "reason": "it is dark"}"#, "").contains("it is dark"));
     assert!(
         refused(&format!("[{sized}, {sized}]").replace("[{", "[{\"image\": \"a\", "), "").contains("image")
     );
-    assert!(refused(&sized.replace("640", "640, \"confidence\": 0.5"), "").contains("to 50 % sure only"));
+    assert!(refused(&sized.replace("640", "640, \"confidence\": 0.5"), "").contains("are only 50 % sure"));
     assert!(refused(&sized.replace("640", "640, \"angle_deg\": 0"), "").contains("field 'angle_deg': 0"));
 }
 

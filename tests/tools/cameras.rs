@@ -112,7 +112,7 @@ fn a_camera_that_nobody_measured_has_a_stand_in() {
     assert!(run.stderr.contains("the photograph names no camera"), "{}", run.stderr);
     let named = folder.sh("sh picture 'Leica Camera AG' 'LEICA Q3'; sh extract --camera nikon-d70");
     assert!(
-        named.stderr.lines().count() == 1 && named.stderr.contains("warning: EXIF of photo.tif says Leica"),
+        named.stderr.lines().count() == 1 && named.stderr.contains("photo.tif: its EXIF names Leica"),
         "{}",
         named.stderr
     );

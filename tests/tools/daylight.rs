@@ -82,7 +82,7 @@ fn what_is_no_daylight_is_to_be_found() {
     ] {
         let run = folder.sh(&format!("{SETUP}\n{picture}; sh extract"));
         assert!(run.stdout.contains("\"illuminant_unknown\":true"), "{picture}: {run:?}");
-        assert!(of_light(&run).starts_with("vextract: which light it was is to be found"), "{}", run.stderr);
+        assert!(of_light(&run).starts_with("vextract: vestimate will look for the light"), "{}", run.stderr);
         assert!(run.stderr.contains(why), "{picture}: {}", run.stderr);
         let told = folder.sh(&format!("{SETUP}\n{picture}; sh extract --illuminant A"));
         assert_eq!(illuminant(&told), "A", "{picture}");

@@ -64,11 +64,11 @@ impl CalibrationArgs {
     /// [`Common::reflectances`].
     pub fn resolved(&self, grid: &WavelengthGrid, common: &Common) -> Result<ResolvedCalibration> {
         if let Some(x) = self.exposure.filter(|x| !(*x > 0.0 && x.is_finite())) {
-            return Err(Error::usage("--exposure", format!("{x} gives no picture"), "give a number above 0"));
+            return Err(Error::usage("--exposure", format!("{x} is out of range"), "give a number above 0"));
         }
         for (flag, cos) in [("--chart-cos", self.chart_cos), ("--white-cos", self.white_cos)] {
             if !(cos > 0.0 && cos <= 1.0) {
-                let problem = format!("{cos} is no cosine of an angle at which the sun shines on it");
+                let problem = format!("{cos} is out of range: the sun must shine on the target");
                 return Err(Error::usage(flag, problem, "give a number above 0, at most 1"));
             }
         }
@@ -76,11 +76,11 @@ impl CalibrationArgs {
         let (rows, cols) = self.chart_grid;
         if rows.checked_mul(cols) != Some(chart.len()) {
             let (reference, count) = (&self.chart_reference, chart.len());
-            let problem = format!("{rows}x{cols} are not the {count} patches of '{reference}'");
+            let problem = format!("{rows}x{cols} does not match the {count} patches of '{reference}'");
             return Err(Error::usage(
                 "--chart-grid",
                 problem,
-                "give its rows x columns, or --chart-reference",
+                "give ROWSxCOLS of the chart, or --chart-reference",
             ));
         }
         let white = common.one_reflectance("--white-reflectance", &self.white_reflectance)?;
@@ -114,7 +114,7 @@ impl ResolvedCalibration {
             (Some(corners), None, None) => Ok(Some((&self.chart, corners))),
             (None, Some(corners), None) => Ok(Some((&self.white, corners))),
             _ => {
-                let problem = "two of chart, white card and --exposure say what the numbers are worth";
+                let problem = "chart, white card and --exposure each set the exposure, and two are stated";
                 Err(Error::usage("--regions", problem, "keep one of them"))
             }
         }
@@ -143,15 +143,15 @@ impl ResolvedCalibration {
     ) -> Result<Option<(Calibration, CalibrationRecord)>> {
         let Some((target, corners)) = self.marked(regions)? else { return Ok(None) };
         if scene.is_light_unknown()? {
-            let problem = "a chart or card is worth what its light is, which is unknown";
+            let problem = "a chart or card cannot calibrate in unknown light";
             return Err(Error::usage("--illuminant", problem, "give the light, or leave chart and card out"));
         }
         let setting = Setting::of(scene)?;
         if regions.chart_confidence.is_some()
             && let Some(turned_deg) = facing::turned_deg(&setting, regions, lens, target.cos())?
         {
-            let problem = format!("the chart is turned from the sun by {turned_deg:.0}° or more");
-            let remedy = "give what --find prints as --regions, and --chart-cos";
+            let problem = format!("the chart faces {turned_deg:.0}° or more away from the sun");
+            let remedy = "give the output of --find as --regions, and state --chart-cos";
             return Err(Error::picture(path, problem, remedy));
         }
         let view = View { path, photograph, light: &setting.open_light()?, lens };

@@ -36,7 +36,7 @@ impl PlacingArgs {
         if px > 0.0 && px <= MOST_PX {
             return Ok(());
         }
-        let problem = format!("{px} px is no reach");
+        let problem = format!("{px} px is out of range");
         Err(Error::usage("--refine", problem, "give 1 to 100, such as --refine=6"))
     }
 
@@ -93,8 +93,8 @@ pub fn report(refinement: &Refinement, name: &str, verbose: bool, quiet: bool) {
         let missing = if missing.is_empty() { String::new() } else { format!("; no edge at {missing}") };
         cli::say("vextract", &format!("{name}: corners moved by {} px{missing}", moved.join(" / ")));
     } else if !quiet && refinement.sides_without_edge.iter().any(|side| !side.starts_with("crease")) {
-        let remedy = "look at --overlay";
-        cli::say("vextract", &format!("{name}: no edge at {missing}, which stay where they are; {remedy}"));
+        let remedy = "check with --overlay";
+        cli::say("vextract", &format!("{name}: no edge at {missing}: left where marked; {remedy}"));
     }
 }
 

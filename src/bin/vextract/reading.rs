@@ -85,11 +85,11 @@ impl Reading {
 fn file(path: &Path) -> Result<PictureFile> {
     let mut file = PictureFile::open(path)?;
     if is_for_the_eye(&mut file) {
-        let problem = "this is a picture for the eye, made by vfold";
+        let problem = "made by vfold for viewing, not for measuring";
         return Err(Error::picture(
             path,
             problem,
-            "render it as .exr or .tif, or give the photograph itself",
+            "render it as .exr or .tif, or give the original photograph",
         ));
     }
     Ok(file)

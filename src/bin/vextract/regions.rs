@@ -79,7 +79,7 @@ impl RegionArgs {
             named.chain(self.panel.iter().map(|(number, text)| ("--panel", *number, text)))
         {
             if panels.insert(number, parse_corners(flag, text, &PANEL_CORNERS)?).is_some() {
-                return Err(Error::usage(flag, format!("panel {number} is given twice"), "keep one"));
+                return Err(Error::usage(flag, format!("panel {number} is stated twice"), "keep one"));
             }
         }
         Ok(panels)
