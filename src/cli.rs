@@ -190,11 +190,11 @@ fn start_threads(count: Option<u16>) -> Result<()> {
     let count = count.map(usize::from).or_else(in_environment).unwrap_or_else(all);
     // running threads abort the program if the stack of a later one leaves them no memory
     let room = LEAST_ROOM + STACK * count as u64;
-    room::ask(room, &format!("a run on {count} threads"), "take fewer with --threads")?;
+    room::ask(room, &format!("a run on {count} threads"), "use fewer with --threads")?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count);
     pool.build_global().map_err(|error| {
         Error::Numeric(format!(
-            "the system gives no threads ({error}); take fewer with --threads, or allow more memory"
+            "cannot start threads ({error}); use fewer with --threads, or allow more memory (ulimit -v)"
         ))
     })
 }
@@ -285,7 +285,7 @@ pub struct OpticsArgs {
 ///
 /// # Example
 /// ```
-/// assert!(vfold::cli::light("2856").unwrap_err().starts_with("a number may be a temperature (2856K,"));
+/// assert!(vfold::cli::light("2856").unwrap_err().contains("a black body (2856K)"));
 /// assert_eq!(vfold::cli::light("2856K").as_deref(), Ok("2856K"));
 /// assert_eq!(vfold::cli::light("1").as_deref(), Ok("1"));
 /// ```
@@ -299,8 +299,8 @@ pub fn light(text: &str) -> std::result::Result<String, String> {
             let black_body = if (1000.0..=25000.0).contains(&value) { number } else { "2856" };
             let daylight = if (4000.0..=25000.0).contains(&value) { number } else { "5500" };
             Err(format!(
-                "a number may be a temperature ({black_body}K, a black body; daylight:{daylight}, daylight) \
-                 or a flat spectrum (E, or 1): write which"
+                "a number may mean a black body ({black_body}K), daylight (daylight:{daylight}) or a flat \
+                 spectrum (E, or 1): write which"
             ))
         }
         _ => Ok(text.to_owned()),
@@ -324,7 +324,7 @@ impl OpticsArgs {
         match self.illuminant.as_slice() {
             [] => Ok(ASSUMED_LIGHT),
             [one] => Ok(one),
-            several => Err(Error::usage("--illuminant", format!("{} are given", several.len()), why)),
+            several => Err(Error::usage("--illuminant", format!("{} illuminants", several.len()), why)),
         }
     }
 
@@ -334,7 +334,7 @@ impl OpticsArgs {
     /// [`Error::Usage`] if one of the illuminants is.
     pub fn known_illuminants(&self, why: &str) -> Result<()> {
         match self.illuminant.iter().chain(&self.sky_illuminant).any(|spec| spec == UNKNOWN_LIGHT) {
-            true => Err(Error::usage("--illuminant", format!("'{UNKNOWN_LIGHT}' is no light"), why)),
+            true => Err(Error::usage("--illuminant", format!("'{UNKNOWN_LIGHT}' names no light"), why)),
             false => Ok(()),
         }
     }
@@ -368,9 +368,9 @@ impl OpticsArgs {
         match (self.sky_illuminant.as_deref(), self.illuminant.as_slice()) {
             (Some("sky"), [sun, ..]) if sun.starts_with("sun:") => Ok(Some(sun.replacen("sun:", "sky:", 1))),
             (Some("sky"), _) => {
-                let problem = "the sky of which sun?";
+                let problem = "'sky' needs a sun";
                 let remedy =
-                    "give --illuminant sun:40deg or sun:LAT,LON,TIME with it, or --sky-illuminant sky:40deg";
+                    "add --illuminant sun:40deg or sun:LAT,LON,TIME, or give --sky-illuminant sky:40deg";
                 Err(Error::usage("--sky-illuminant", problem, remedy))
             }
             (spec, _) => Ok(spec.map(str::to_owned)),

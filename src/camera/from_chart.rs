@@ -126,7 +126,7 @@ impl ChartCamera {
         if residual > LARGEST_RESIDUAL {
             let percent = 100.0 * residual;
             return Err(Error::Numeric(format!(
-                "the patches are off by {percent:.0} % in the mean from what any camera makes of them"
+                "on average the patches are off by {percent:.0} % from any camera's response"
             )));
         }
         let peak = sensitivities.rows(bands, bands).max();

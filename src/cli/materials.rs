@@ -27,7 +27,7 @@ impl MaterialArgs {
         let mut materials: Vec<Material> = Vec::new();
         for (group, spec) in &self.material {
             if materials.iter().any(|material| material.group == *group) {
-                return Err(Error::usage("--material", format!("'{group}' has two"), "give one a group"));
+                return Err(Error::usage("--material", format!("'{group}' is stated twice"), "keep one"));
             }
             let spectrum = common.one_reflectance("--material", spec)?;
             let reflectance = spectrum.on(grid, Outside::Refuse)?;

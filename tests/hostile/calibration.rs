@@ -118,7 +118,7 @@ END
             case("sh chart --chart-grid 9999999999x9999999999", 2, &["--chart-grid", "24 patches"]),
             case("sh chart --chart-reference cc42", 1, &["cc42", "cc24"]),
             case("sh chart --chart-reference narrow.csv --chart-grid 1x2", 1, &["narrow:a", "500..600 nm"]),
-            case("sh chart --chart-reference dark.csv --chart-grid 1x2", 1, &["dark:a", "no light"]),
+            case("sh chart --chart-reference dark.csv --chart-grid 1x2", 1, &["dark:a", "black"]),
             case("sh card --white-reflectance cc24", 2, &["--white-reflectance", "a set"]),
             case("sh card --white-reflectance 1.2", 1, &["1.2", "0..1"]),
             case("sh marked --white-region '1,1 9,1 9,9 1,9'", 1, &["white card", "does not rise"]),

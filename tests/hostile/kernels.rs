@@ -63,7 +63,7 @@ fn flags_beside_kernels() {
             case(
                 "vforward --kernel good.npy --reflectance 0.5 --material a=1 --material a=0",
                 2,
-                &["has two"],
+                &["stated twice"],
             ),
             case(
                 "vforward --kernel good.npy --reflectance 0.5 | vestimate --fit tilt",

@@ -8,7 +8,7 @@ fn lights() {
         "",
         &[
             case("vkernel --light 0,0,1 --tilt-deg 5", 2, &["--tilt-deg", "--light X,Y,Z"]),
-            case("vkernel --light 0,0,1 --method midpoint", 2, &["--method", "not beside --light"]),
+            case("vkernel --light 0,0,1 --method midpoint", 2, &["--method", "not with --light"]),
             case("vkernel --sky-type overcast", 2, &["--sky-type", "no sky", "--sky only"]),
             case("vkernel --sky only --sky-type 16", 2, &["--sky-type", "1 to 15"]),
             case(
@@ -124,7 +124,7 @@ END
             case("sh lit sun:50,8,2024-06-01T12:00+99:00", 1, &["is no time"]),
             case("sh lit sun:50,8,2024-06-01T00:00Z", 1, &["below the horizon", "check the time"]),
             case("sh lit sky:", 1, &["sky:"]),
-            case("sh lit D65 --sky-illuminant sky", 2, &["--sky-illuminant", "which sun", "sky:40deg"]),
+            case("sh lit D65 --sky-illuminant sky", 2, &["--sky-illuminant", "needs a sun", "sky:40deg"]),
             case("sh lit D65 --sky-illuminant sky:99deg", 1, &["sky:99deg", "below the horizon"]),
             case("vkernel --sky sun:95deg", 2, &["--sky", "below the horizon"]),
             case("vkernel --sky sun:", 2, &["--sky", "no place and time"]),

@@ -71,8 +71,8 @@ END
                 1,
                 &["panel 0: no facet", "640 x 480 px"],
             ),
-            case("sh whole photo.exr --refine=0", 2, &["--refine", "reach"]),
-            case("sh whole photo.exr --refine=NaN", 2, &["--refine", "reach"]),
+            case("sh whole photo.exr --refine=0", 2, &["--refine", "out of range"]),
+            case("sh whole photo.exr --refine=NaN", 2, &["--refine", "out of range"]),
             case(
                 "sh whole photo.exr --refine --panel1 '32,462 45,77 85,17 72,446'",
                 2,
@@ -96,7 +96,7 @@ END
                 "vextract photo.exr --scene scene.json --camera one.csv \
                     --panel0 '332,462 345,77 122,12 104,442'",
                 1,
-                &["photo.exr", "in red, green and blue", "camera has 1 channels"],
+                &["photo.exr", "an RGB picture", "camera has 1 channels"],
             ),
             case("sh whole big.tif", 1, &["big.tif", "BigTIFF", "less than 4 GiB"]),
             case("sh whole photo.nef", 1, &["photo.nef", "named like a camera's RAW file", "JPEG"]),

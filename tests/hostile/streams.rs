@@ -150,7 +150,7 @@ fn streams() {
                 "sed 's/\"sensitivities\":[^]]*/\"sensitivities\":[[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,\
                     0,0,0,0,0,0,0,0,0,0,0/' good.ndjson | vestimate",
                 1,
-                &["-:1", "channel 0", "sees nothing"],
+                &["-:1", "channel 0", "does not respond"],
             ),
             case("vestimate good.ndjson --plot no/such.svg", 1, &["no/such.svg"]),
             case("vestimate good.ndjson --save nothing=x.npy", 1, &["x.npy", "--save"]),

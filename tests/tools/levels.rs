@@ -145,7 +145,7 @@ fn noise_tells_a_curve_and_a_matrix() {
         (
             "a matrix",
             "--mulc 2,1,1.5 --ccmatrix 1.7,-0.15,0.05,-0.6,1.65,-0.55,-0.1,-0.5,1.5 --mulc 0.5",
-            "a matrix mixed them",
+            "matrix mixed them",
             "matrix",
         ),
     ] {

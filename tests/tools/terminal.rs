@@ -68,7 +68,7 @@ fn a_long_solution_says_that_it_is_at_work() {
         "/tests/data/shapes/corner.obj'; } > slow.obj &"
     );
     let shown = plain(&on_terminal(slow, "vkernel --shape slow.obj --mesh facets -o out.json").stdout);
-    assert!(shown.contains("vkernel: at work for 1s"), "{shown:?}");
+    assert!(shown.contains("vkernel: running for 1s"), "{shown:?}");
 }
 
 /// Lines about samples stand above that of the progress, not in it.

@@ -127,7 +127,7 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let noise = noise(args)?;
     args.render.check(args.sheet.shape()?.is_some())?;
-    args.optics.known_illuminants("vforward computes what a camera sees in a light: give that")?;
+    args.optics.known_illuminants("vforward computes what a camera sees in a known light: name it")?;
     let optics = args.optics.resolve(&args.common.camera(&args.camera)?, &args.common)?;
     let emission = Emission::of(args, &optics.grid)?;
     let subject = Subject::of(args, &optics.grid, &emission)?;
@@ -166,7 +166,7 @@ fn bounces(text: &str) -> std::result::Result<BouncesArg, String> {
     match text {
         "inf" => Ok(BouncesArg::All),
         "auto" => Ok(BouncesArg::Auto),
-        _ => text.parse().map(BouncesArg::First).map_err(|_| "write inf, auto or a number".to_owned()),
+        _ => text.parse().map(BouncesArg::First).map_err(|_| "write inf, auto or a whole number".to_owned()),
     }
 }
 
@@ -200,7 +200,7 @@ fn noise(args: &Args) -> Result<Noise> {
     if !(args.exposure > 0.0 && args.exposure.is_finite()) {
         return Err(Error::usage(
             "--exposure",
-            format!("{} gives no picture", args.exposure),
+            format!("{} is out of range", args.exposure),
             "give a number above 0",
         ));
     }

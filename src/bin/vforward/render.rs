@@ -42,11 +42,11 @@ impl RenderArgs {
         if self.eye.is_none() || self.render.is_some() || is_seen {
             return Ok(());
         }
-        let problem = "where the camera stands makes no difference to the facets of a perfectly matt sheet";
+        let problem = "a perfectly matt sheet looks the same from everywhere";
         Err(Error::usage(
             "--eye",
             problem,
-            "give --render, or --specular-weight, --body-roughness-deg or --sheen",
+            "leave it out, or add --render, --specular-weight, --body-roughness-deg or --sheen",
         ))
     }
 

@@ -77,7 +77,7 @@ impl LightArgs {
     /// irradiance 1 if it is infinite; the sun is in direction `sun` if no light is stated.
     pub fn sources(&self, shape: &Shape, sky: f64, sun: [f64; 3]) -> Result<Vec<LightSource>> {
         if self.zenith.is_some() && self.sky_type == SkyType::Uniform {
-            return Err(Error::usage("--zenith", "a uniform sky has none", "add --sky-type overcast"));
+            return Err(Error::usage("--zenith", "a uniform sky has no zenith", "add --sky-type overcast"));
         }
         if self.sky_type != SkyType::Uniform && sky == 0.0 {
             return Err(Error::usage(
@@ -87,7 +87,7 @@ impl LightArgs {
             ));
         }
         if sky.is_infinite() && !matches!(self.light.as_slice(), [] | [LightArg::None]) {
-            return Err(Error::usage("--sky", "only, beside a --light", "leave one of them out"));
+            return Err(Error::usage("--sky", "'only' excludes --light", "leave one of them out"));
         }
         let lights = match self.light.as_slice() {
             [] if sky.is_infinite() => Vec::new(),
@@ -104,7 +104,7 @@ impl LightArgs {
             sources.push(self.sky(sky, sun)?);
         }
         if sources.is_empty() {
-            return Err(Error::usage("--light", "none, and no sky", "add --sky 1"));
+            return Err(Error::usage("--light", "'none' without a sky leaves no light", "add --sky 1"));
         }
         Ok(sources)
     }
@@ -163,7 +163,7 @@ fn light(text: &str) -> std::result::Result<LightArg, String> {
         return Ok(LightArg::None);
     }
     let wrong = || {
-        "write X,Y,Z, point:X,Y,Z or area:X,Y,Z,WIDTHxHEIGHT, with :IRRADIANCE or without, or none".to_owned()
+        "write X,Y,Z, point:X,Y,Z or area:X,Y,Z,WIDTHxHEIGHT, optionally with :IRRADIANCE, or none".to_owned()
     };
     let (kind, rest) = match text.split_once(':') {
         Some((kind @ ("point" | "area"), rest)) => (kind, rest),

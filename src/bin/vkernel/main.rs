@@ -164,7 +164,7 @@ fn say_work(args: &Args, accuracy: &Accuracy, poles: usize, skipped: &[Skipped])
     }
     let error = accuracy.facet_mean_error.map_or("not estimated".to_owned(), |error| format!("{error:.1e}"));
     let unknowns = accuracy.unknowns;
-    cli::say("vkernel", &format!("{unknowns} unknowns, {poles} poles, facet means' error {error}"));
+    cli::say("vkernel", &format!("{unknowns} unknowns, {poles} poles, error of facet means {error}"));
     for Skipped { what, count, why } in skipped {
         cli::say("vkernel", &format!("skipped {count} {what}: {why}"));
     }

@@ -45,7 +45,8 @@ pub fn seen(args: &Args, path: &Path) -> Result<Seen> {
         (Ok(seen), None) => check_certain(&name, seen),
         (Err(_), Some(angle_deg)) => Ok(Seen { angle_deg, angle_sd_deg: None, panel: panel(regions) }),
         (Err(problem), None) => {
-            Err(Error::regions(&name, problem.to_string(), "give --angle-deg, or regions of vextract --find"))
+            let remedy = "give --angle-deg, or the output of vextract --find";
+            Err(Error::regions(&name, problem.to_string(), remedy))
         }
     }
 }

@@ -135,7 +135,7 @@ fn check(args: &Args) -> Result<()> {
         ),
     ];
     let problem =
-        if args.shape.is_shape() { "not for shapes" } else { "not beside --light, --sky-type or --zenith" };
+        if args.shape.is_shape() { "not for shapes" } else { "not with --light, --sky-type or --zenith" };
     flags.into_iter().try_for_each(|(flag, flags, remedy)| cli::refuse([(flag, flags)], problem, remedy))
 }
 
@@ -179,15 +179,14 @@ fn lit(args: &Args) -> Result<Lit> {
 /// Warns of an accuracy below the expected one, and refuses one below the requested one.
 fn say_accuracy(args: &Args, solved: &Solved) -> Result<()> {
     if solved.direct_error > 0.0 && !args.common.quiet {
-        let sampled =
-            format!("light of the sky is sampled: its standard error is up to {:.1e}", solved.direct_error);
+        let sampled = format!("skylight is sampled: its standard error is up to {:.1e}", solved.direct_error);
         cli::say("vkernel", &sampled);
     }
     let error = solved.accuracy.facet_mean_error;
     let Some(error) = error.filter(|error| *error > args.tolerance.unwrap_or(TOLERANCE)) else {
         return Ok(());
     };
-    let problem = format!("{error:.1e} is the least error of the facet means that is reached on this shape");
+    let problem = format!("on this shape the error of facet means is at best {error:.1e}");
     if args.tolerance.is_some() {
         return Err(Error::usage("--tolerance", problem, "give a larger tolerance or --mesh facets"));
     }
