@@ -337,7 +337,7 @@ impl EstimateRecord {
     pub fn doubts(&self) -> Vec<String> {
         let warning = Some(self.residual_rms).filter(|rms| *rms > WRONG_CHI).map(|rms| {
             format!(
-                "the model misfits the facets by {rms:.0} times the noise; check angle, corners, \
+                "the facets differ from the model by {rms:.0} times the noise; check angle, corners, \
                  light, camera and exposure"
             )
         });

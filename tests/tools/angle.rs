@@ -97,7 +97,7 @@ fn a_scene_of_another_fold_is_doubtful() {
             ("--angle-deg 50 --panel 1x2", "those of panels 1.00 times as deep as wide"),
         ] {
             let [level, because] = verdict(fold, corners);
-            let is = format!("the corners are not those of the fold that was stated, but {is}");
+            let is = format!("the corners are not those of the stated fold, but {is}");
             assert!(level == "doubtful" && because.starts_with(&is), "{level} {because}");
         }
     }

@@ -39,7 +39,7 @@ const SHEET: &str = "vkernel --angle-deg 180 --facets 1x1 | vforward --reflectan
 
 #[test]
 fn facets_that_no_sheet_has_are_refused() {
-    let unexplained = "% of the light is not what any reflectance gives; check exposure";
+    let unexplained = "% of the light; check exposure, noise, angle";
     for (seen, flags, says) in [
         (format!("{FOLD} --exposure 10"), "--exposure 1", unexplained),
         (format!("{FOLD} --exposure 1e3 --noise-sd 1"), "--exposure 1", unexplained),

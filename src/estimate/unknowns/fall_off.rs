@@ -24,11 +24,11 @@ pub static FALL_OFF: Unknown = Unknown {
                 let (percent, end) = (100.0 * value.abs(), usize::from(*value > 0.0));
                 format!(
                     "light falls off along the crease, by {percent:.0} % towards end {end}: \
-                     a lamp near by, or the edge of a shadow"
+                     a lamp nearby, or the edge of a shadow"
                 )
             },
-            remedy: "photograph the sheet in the sun, away from walls; \
-                     in the light of a lamp, with that further away",
+            remedy: "photograph the sheet in the sun, away from walls, \
+                     or move the lamp further away",
         }),
     }),
 };
