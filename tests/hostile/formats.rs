@@ -202,10 +202,10 @@ fn scores() {
         vkernel --facets 2x2 | vforward --reflectance cc24:red | vestimate -o red.ndjson",
         &[
             case("vscore red.ndjson --metrics metamerism", 2, &["--metrics", "--illuminant A"]),
-            case("vscore red.ndjson --metrics rmse,rmse", 2, &["'rmse' is asked for twice"]),
+            case("vscore red.ndjson --metrics rmse,rmse", 2, &["'rmse' is requested twice"]),
             case("vscore red.ndjson --illuminant D65 --illuminant A --illuminant A", 2, &["twice"]),
             case("vscore red.ndjson --metrics beauty", 2, &["beauty"]),
-            case("vscore red.ndjson --by truth.nme", 1, &["truth.nme", "no sample has it"]),
+            case("vscore red.ndjson --by truth.nme", 1, &["truth.nme", "no sample or scene has it"]),
             case("vscore red.ndjson --by estimate", 1, &["estimate", "not one value"]),
             case("vscore red.ndjson --table --colour", 2, &["--table"]),
         ],

@@ -144,7 +144,7 @@ impl fmt::Display for FlatContext {
 /// Refuses flags that apply to flat sheets only.
 fn check_fold(args: &MethodArgs) -> Result<()> {
     let surplus = [("--components", args.components.is_some()), ("--basis", args.basis.is_some())];
-    refuse(surplus, "not known to --method interreflection", "give --method park or khan")
+    refuse(surplus, "not used by --method interreflection", "give --method park or khan")
 }
 
 /// Refuses flags that do not apply to flat sheets.
@@ -160,5 +160,5 @@ fn check_flat(args: &super::Args, name: &str) -> Result<()> {
         ("--trace", args.trace.is_some()),
         ("--plan", args.planning.plan),
     ];
-    refuse(surplus, &format!("not known to --method {name}"), "leave one of them out")
+    refuse(surplus, &format!("not used by --method {name}"), "leave one of them out")
 }
