@@ -65,7 +65,7 @@ fn refine_here(fold: &Fold, tolerance: f64) -> Result<Refined> {
     let Some((coarse, mut fine)) = first_two(fold, AIM * tolerance)? else {
         return Err(Error::usage(
             "--tolerance",
-            format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
+            format!("{tolerance:e} needs more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
             "give a larger tolerance or --mesh facets",
         ));
     };

@@ -58,7 +58,7 @@ fn regions() {
             case("sh extract --regions infinite.json", 1, &["infinite.json", "out of range"]),
             case("sh extract --regions crossed.json", 1, &["'panel0'", "cross"]),
             case("sh extract --regions outside.json", 1, &["panel 0", "640 x 480 px"]),
-            case("sh extract --regions same.json", 2, &["panels 0 and 1", "over each other"]),
+            case("sh extract --regions same.json", 2, &["panels 0 and 1", "overlap"]),
             // the fold is found, but where the file has a chart there is none
             case("sh extract --regions without.json -q", 1, &["--chart"]),
             case("sh extract --regions width.json", 1, &["'width' and 'height'", "both"]),

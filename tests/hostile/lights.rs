@@ -21,17 +21,17 @@ fn lights() {
             case("vkernel --folds 2 --light 0,0", 2, &["--light", "X,Y,Z"]),
             case("vkernel --folds 2 --light 0,0,1:", 2, &["--light", "X,Y,Z"]),
             case("vkernel --folds 2 --light point:0,0,x", 2, &["--light", "X,Y,Z"]),
-            case("vkernel --folds 2 --light 0,0,0", 2, &["--light", "no direction"]),
+            case("vkernel --folds 2 --light 0,0,0", 2, &["--light", "not a direction"]),
             case("vkernel --folds 2 --light 0,0,NaN", 2, &["--light", "0,0,NaN", "write X,Y,Z"]),
-            case("vkernel --folds 2 --light 0,0,1:-1", 2, &["--light", "irradiance of -1"]),
+            case("vkernel --folds 2 --light 0,0,1:-1", 2, &["--light", "irradiance -1"]),
             case("vkernel --folds 2 --light point:0,0,inf", 2, &["--light", "0,0,inf", "write X,Y,Z"]),
             case("vkernel --folds 2 --light none", 2, &["--light", "--sky 1"]),
-            case("vkernel --folds 2 --sky -1", 2, &["--sky", "irradiance of -1"]),
+            case("vkernel --folds 2 --sky -1", 2, &["--sky", "irradiance -1"]),
             case("vkernel --folds 2 --zenith 0,0,1", 2, &["--zenith", "overcast"]),
             case(
                 "vkernel --folds 2 --sky 1 --sky-type overcast --zenith 0,0,0",
                 2,
-                &["--sky", "no direction"],
+                &["--sky", "not a direction"],
             ),
             case("vkernel --folds 3 --facets 1x1 --light 0,0,-1", 1, &["no light falls"]),
         ],
@@ -44,11 +44,7 @@ fn folds() {
     assert_refused(
         "vkernel --facets 2x2 --light point:0,0,2 --no-history -o lamp.json",
         &[
-            case(
-                "vforward lamp.json --reflectance 0.5 | vestimate --fit tilt",
-                1,
-                &["nothing but the exposure"],
-            ),
+            case("vforward lamp.json --reflectance 0.5 | vestimate --fit tilt", 1, &["only the exposure"]),
             case("vforward lamp.json --reflectance 0.5 --reference-panel 1", 1, &["--material"]),
         ],
     );

@@ -78,9 +78,9 @@ fn samples_that_do_not_fit_the_method() {
     for (script, says) in [
         (
             "vestimate fold.ndjson --method park",
-            "folded, and this method knows no bounces; use vkernel --angle-deg 180",
+            "folded, but this method ignores bounces; use vkernel --angle-deg 180",
         ),
-        ("vestimate flat.ndjson --method park --components 70", "70 components asked for"),
+        ("vestimate flat.ndjson --method park --components 70", "70 components requested"),
         ("vestimate flat.ndjson --method khan --components 7", "camera and lights have 6"),
         ("vestimate flat.ndjson --method khan --exposure free", "give --exposure X or sum"),
         (

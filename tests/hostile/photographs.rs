@@ -117,7 +117,7 @@ END
             case(
                 "sh whole photo.exr --panel1 '332,462 345,77 122,12 104,442'",
                 2,
-                &["panels 0 and 1", "over each other"],
+                &["panels 0 and 1", "overlap"],
             ),
             case("sh whole photo.exr --white-level 0", 2, &["--white-level", "black level"]),
             case("sh whole photo.exr --exposure 0", 2, &["--exposure", "above 0"]),

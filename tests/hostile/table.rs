@@ -27,7 +27,7 @@ const TABLE: [(&str, [Cell; 5]); 11] = [
     (
         "truncated",
         [
-            Refuses(&[case("vkernel --shape cut.ply", 1, &["cut.ply", "no PLY file", "export"])]),
+            Refuses(&[case("vkernel --shape cut.ply", 1, &["cut.ply", "not a PLY file", "export"])]),
             Refuses(&[
                 case("head -c 400 scene.json | vforward --reflectance 0.5", 1, &["-:1", "cut", "again"]),
                 case("vforward scene.json --reflectance 0.5 --camera cut.json", 1, &["cut.json:1", "EOF"]),

@@ -52,7 +52,7 @@ fn facets_that_no_sheet_has_are_refused() {
         (format!("{FOLD} --exposure 1e-300"), "", "no light in any facet"),
         (format!("{FOLD} --exposure 1e300"), "", "cannot be the value of a facet"),
         ("vkernel | vforward --reflectance 0".to_owned(), "", "no light in any facet"),
-        (SHEET.to_owned(), "--method khan --exposure free", "a flat sheet does not tell it"),
+        (SHEET.to_owned(), "--method khan --exposure free", "a flat sheet does not reveal it"),
     ] {
         let sample = estimated(&seen, flags);
         let error = sample["error"].as_str().unwrap_or("");

@@ -187,7 +187,7 @@ impl BentExchange {
         }
         let solved = Cholesky::new(system).map(|factors| factors.solve(power));
         solved.ok_or_else(|| {
-            Error::Numeric(format!("a bent sheet of albedo {albedo} keeps all light that it receives"))
+            Error::Numeric(format!("no light escapes a bent sheet of albedo {albedo}"))
         })
     }
 }
