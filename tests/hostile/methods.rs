@@ -87,7 +87,7 @@ fn samples_that_do_not_fit_the_method() {
             "vestimate flat.ndjson --method park --smoothness 0 --components 8",
             "8 components are more than the values tell",
         ),
-        ("vestimate flat.ndjson --method khan --components 2 --basis dark.csv", "zero at one wavelength"),
+        ("vestimate flat.ndjson --method khan --components 2 --basis dark.csv", "zero at a wavelength"),
         (
             r#"sed '2s/"facet_rgb":\[\[/&[0.1,0.1,0.1],/' flat.ndjson | vestimate"#,
             "2 facets in one picture, 3 in another",

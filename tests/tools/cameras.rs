@@ -260,9 +260,9 @@ fn what_a_cameras_file_leaves_open_is_said() {
     assert_eq!(
         run.stderr.lines().collect::<Vec<_>>(),
         [
-            "vforward: places.csv: channels c1, c2, c3 taken for R, G, B by their places, \
-             as no name says a colour",
-            "vforward: scaled.csv: all channels have the same peak, as no camera's do: \
+            "vforward: places.csv: channels c1, c2, c3 taken as R, G, B by position, \
+             as no name gives a colour",
+            "vforward: scaled.csv: all channels have the same peak, unlike any camera's: \
              scaled one by one, they have lost their ratios",
         ]
     );

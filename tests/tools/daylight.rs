@@ -109,9 +109,9 @@ fn suns_and_skies_of_the_command_line() {
             1,
             "below the horizon",
         ),
-        ("vforward scene.json --reflectance 0.5 --illuminant sun:98,11,2026-06-21T12:00Z", 1, "is no place"),
-        ("vforward scene.json --reflectance 0.5 --illuminant sun:48,11,noon", 1, "'noon' is no time"),
-        ("vforward scene.json --reflectance 0.5 --illuminant sun:Paris", 1, "no place and time"),
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:98,11,2026-06-21T12:00Z", 1, "not a place"),
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:48,11,noon", 1, "'noon' is not a time"),
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:Paris", 1, "not a place and time"),
         ("vforward scene.json --reflectance 0.5 --sky-illuminant sky", 2, "'sky' needs a sun"),
         ("vkernel --sky sun:95deg", 2, "below the horizon"),
     ] {

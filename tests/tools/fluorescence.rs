@@ -148,7 +148,7 @@ fn what_says_nothing_of_a_matrix_is_refused_in_one_line() {
     for (flags, want) in [
         (format!("{short} bright.csv --illuminant D50 --illuminant D65"), "give one --illuminant"),
         ("--donaldson bright.csv".to_owned(), "its samples cover 400..550 nm"),
-        (format!("{short} r.csv"), "column 'r' is not called by a wavelength of excitation"),
+        (format!("{short} r.csv"), "the name of column 'r' is not an excitation wavelength"),
         (format!("{short} bright.csv --reference-panel 0.9"), "cannot be used with"),
     ] {
         let run = folder.sh(&format!("vforward scene.json {flags}"));
