@@ -430,7 +430,7 @@ impl Sample {
     pub fn estimate(&self) -> Result<Option<EstimateRecord>> {
         match self.made::<EstimateRecord>("estimate")? {
             Some(estimate) if !estimate.is_spectrum() => {
-                let problem = "not as many values as wavelengths, two or more; estimate it again";
+                let problem = "needs as many values as wavelengths, two or more; estimate it again";
                 Err(Error::field("estimate", problem))
             }
             Some(estimate) => {

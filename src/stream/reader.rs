@@ -112,16 +112,14 @@ impl Reader {
                 return Err(Error::EmptyPipe);
             }
             return Err(
-                self.wrong("no record: the stream is empty", "give it what the tool before it writes")
+                self.wrong("no record: the stream is empty", "pipe the output of the preceding tool into it")
             );
         }
         let is_whole = bytes.ends_with(b"\n");
         if is_record(&bytes) && !is_whole {
             return Err(match bytes.len() as u64 {
                 LINE_MAX => self.wrong("a line of more than 1 GiB", "use fewer facets or wavelengths"),
-                _ => {
-                    self.wrong("the last line has no end: the stream was cut", "run the tool before it again")
-                }
+                _ => self.wrong("the stream was cut in its last line", "run the preceding tool again"),
             });
         }
         room::ask(
@@ -200,7 +198,7 @@ impl Reader {
                 if let Some(line) = self.lost_scene
                     && !matches!(sample.error(), Ok(Some(_)))
                 {
-                    let problem = format!("the scene above it, line {line}, cannot be read; mend that line");
+                    let problem = format!("the scene above it, line {line}, cannot be read; repair it");
                     sample.set_error(&Error::field("scene", problem))?;
                 }
                 Ok(Record::Sample(sample))

@@ -48,7 +48,7 @@ fn geometry() {
             case("vkernel -j 1000000", 2, &["--threads", "1024"]),
             case("vkernel --regions none.json", 1, &["none.json"]),
             case("vkernel --regions r.json --folds 3", 2, &["--regions", "--folds"]),
-            case("echo '{}' | vkernel --regions -", 1, &["-", "no corners of panel0", "--angle-deg"]),
+            case("echo '{}' | vkernel --regions -", 1, &["-", "panel0 has no corners", "--angle-deg"]),
             case("vkernel surplus", 2, &["surplus"]),
         ],
     );

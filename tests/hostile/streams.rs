@@ -36,7 +36,7 @@ fn streams() {
     assert_refused(
         STREAM,
         &[
-            case("vforward --reflectance 0.5 < /dev/null", 1, &["-:1", "no record", "the tool before it"]),
+            case("vforward --reflectance 0.5 < /dev/null", 1, &["-:1", "no record", "the preceding tool"]),
             case("vestimate < /dev/null", 1, &["-:1", "no record"]),
             case("vscore /dev/null", 1, &["/dev/null:1", "no record"]),
             case("echo hello | vestimate", 1, &["-:1", "not a JSON object"]),

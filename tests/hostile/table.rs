@@ -98,7 +98,7 @@ const TABLE: [(&str, [Cell; 5]); 11] = [
             NO_ARRAYS,
             Refuses(&[
                 case("vforward --kernel vast.npy --reflectance 0.5", 1, &["vast.npy", "1 to 20000 rows"]),
-                case("vforward --kernel lying.npy --reflectance 0.5", 1, &["lying.npy", "does not hold"]),
+                case("vforward --kernel lying.npy --reflectance 0.5", 1, &["lying.npy", "holds fewer"]),
                 case("vforward --kernel headed.npy --reflectance 0.5", 1, &["headed.npy", "header", "save"]),
                 case("vforward --kernel nested.npy --reflectance 0.5", 1, &["nested.npy", "header", "save"]),
                 case("vforward scene.json --facet-reflectance vast.npy", 1, &["vast.npy", "8 facets by 61"]),

@@ -131,7 +131,7 @@ fn corners_of_the_picker_tell_the_angle() {
     assert!(refused(&sizeless, "").contains("'width' and 'height' are missing"));
     assert_eq!(records(&run(&sizeless, "--angle-deg 50"))[0]["geometry"]["angle_deg"], 50.0);
     let half = r#"{"panel0": [[332, 462], [345, 77], [122, 12], [104, 442]], "width": 640, "height": 480}"#;
-    assert!(refused(half, "").contains("no corners of panel1"));
+    assert!(refused(half, "").contains("panel1 has no corners"));
     let vague = sized.replace("{\"panel0", "{\"angle_deg\": 50, \"angle_sd_deg\": 8, \"panel0");
     assert!(refused(&vague, "").contains("the corners fix the angle only to 50 ± 8°; give the panels'"));
     assert!(refused(r#"{"found": false, "reason": "it is dark"}"#, "").contains("it is dark"));
@@ -175,5 +175,5 @@ fn a_scene_is_of_one_photograph() {
     let run =
         with_photo().sh("cp photo.exr other.exr; vextract --find photo.exr other.exr | vkernel --regions -");
     assert_eq!(run.status, 1);
-    assert!(run.stderr.contains("regions of 2 photographs where one is needed"), "{}", run.stderr);
+    assert!(run.stderr.contains("regions of 2 photographs, but one is needed"), "{}", run.stderr);
 }
