@@ -81,8 +81,8 @@ fn layouts_of_tiff_are_read_or_refused_by_name() {
         (run.status, run.stderr.as_str()),
         (
             1,
-            "vextract: last.tif: its first page is 40 x 30 px, and a later one 80 x 60 px; \
-             save the page that is meant by itself\n"
+            "vextract: last.tif: its first page is 40 x 30 px, but a later one 80 x 60 px; \
+             save the intended page alone\n"
         )
     );
     for (how, why) in [("-d uint32", "integers of 32 bits"), ("-d uint8 --compression jpeg", "YCbCr")] {
