@@ -38,13 +38,13 @@ use outcome::{misuse, without_panic};
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Common options")]
 pub struct Common {
-    /// Write here instead of standard output; the file appears when it is whole
+    /// Write to FILE instead of standard output; it appears when it is complete
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Write here as --output does, line by line, and resume an interrupted run of the same command
+    /// Like --output, but write line by line, and resume an interrupted run of the same command
     #[arg(long, value_name = "FILE", conflicts_with = "output")]
     pub resume: Option<PathBuf>,
-    /// Threads to use [default: all cores]
+    /// Threads to use, 1 to 1024 [default: all cores]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Print nothing but errors
@@ -63,14 +63,14 @@ pub struct Common {
     /// Do not record this tool's arguments in the stream
     #[arg(long)]
     pub no_history: bool,
-    /// Print the man page, a shell's completions, or page and JSON Schema of the records
+    /// Print the man page, a shell's completions, or the man page or JSON Schema of the records
     #[arg(long, value_name = "WHAT")]
     pub generate: Option<Generate>,
     /// Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA
     #[arg(long, value_name = "WHAT")]
     pub list: Option<ListWhat>,
-    /// Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions
-    /// [default: in percent if a value is above 2]
+    /// Read files of reflectances without a stated unit as percent, or, with --percent=no, as fractions
+    /// [default: as percent if a value is above 2]
     #[arg(long, value_name = "yes|no", num_args = 0..=1, require_equals = true, default_missing_value = "yes",
         value_parser = clap::builder::BoolishValueParser::new(), hide_possible_values = true)]
     pub percent: Option<bool>,
@@ -262,17 +262,18 @@ pub fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the
-    /// sun of a cloudless day, or a file; of a photograph also unknown: vestimate finds it; repeated: a
-    /// picture under each, or, of a shape under several lights, one picture with these in the order of the
-    /// lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun's]
+    /// Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at
+    /// an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), or a file; for a
+    /// photograph also unknown: vestimate finds it. Repeated: a picture under each, or, for a shape under
+    /// several lights, one picture with an illuminant per light in their order, skies not counted [default:
+    /// D65; for a photograph that states where and when it was taken, the sun's]
     #[arg(long, value_name = "SPEC", value_parser = light)]
     pub illuminant: Vec<String>,
     /// Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant
-    /// [default: that of the sun]
+    /// [default: the same as the sun's]
     #[arg(long, value_name = "SPEC", value_parser = light)]
     pub sky_illuminant: Option<String>,
-    /// Wavelengths, nm
+    /// Wavelengths, nm: the first, the last and the step
     #[arg(long, value_name = "FIRST:LAST:STEP", default_value = "400:700:5", value_parser = wavelengths)]
     pub wavelengths_nm: WavelengthGrid,
 }

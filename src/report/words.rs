@@ -21,7 +21,7 @@ const WORDS: [(&str, &str); 21] = [
     ("image.exposure_s", "exposure time, s"),
     ("image.f_number", "f-number"),
     ("image.iso", "ISO"),
-    ("image.margin_px", "distance kept from the sides of facets, px"),
+    ("image.margin_px", "distance kept from the panels' edges, px"),
     ("seed", "seed of the noise"),
 ];
 

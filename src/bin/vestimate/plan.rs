@@ -37,10 +37,10 @@ pub struct PlanArgs {
     #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub camera: Option<String>,
     /// Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward
-    /// [default: D65]; unknown: forget what scenes say of theirs, and find it
+    /// [default: D65]; unknown: ignore the illuminants of the scenes, and find them
     #[arg(long, value_name = "SPEC", value_parser = cli::light)]
     pub illuminant: Vec<String>,
-    /// Illuminant of its sky [default: that of the sun]
+    /// Illuminant of the sky of a scene that has none [default: the same as the sun's]
     #[arg(long, value_name = "SPEC", requires = "scene without a camera", value_parser = cli::light)]
     pub sky_illuminant: Option<String>,
 }

@@ -17,19 +17,19 @@ use super::target::{Target, View};
 #[derive(Args)]
 #[command(next_help_heading = "Calibration")]
 pub struct CalibrationArgs {
-    /// Value of a perfect white diffuser facing the sun, in its strongest channel, if known
+    /// Value of a perfect white diffuser facing the sun, in its strongest channel, above 0, if known
     #[arg(long, value_name = "X", conflicts_with_all = ["chart", "white_region"],
         allow_negative_numbers = true)]
     exposure: Option<f64>,
     /// Reflectances of the chart's patches, row by row
     #[arg(long, value_name = "SPEC", default_value = "cc24", requires = "chart_place")]
     chart_reference: String,
-    /// Patches of the chart
+    /// Rows and columns of patches of the chart
     #[arg(long, value_name = "ROWSxCOLS", default_value = "4x6", requires = "chart_place",
         value_parser = cli::pair::<usize>)]
     chart_grid: (usize, usize),
-    /// Cosine of the angle between the sun and the chart's normal; 1: the chart faces the sun, unlike the
-    /// panels
+    /// Cosine of the angle between the sun and the chart's normal, above 0 to 1; 1: the chart faces the
+    /// sun, unlike the panels
     #[arg(
         long,
         value_name = "X",
@@ -45,7 +45,7 @@ pub struct CalibrationArgs {
     /// Reflectance of the white card
     #[arg(long, value_name = "SPEC", default_value = "1", requires = "white_place")]
     white_reflectance: String,
-    /// Cosine of the angle between the sun and the white card's normal
+    /// Cosine of the angle between the sun and the white card's normal, above 0 to 1
     #[arg(
         long,
         value_name = "X",

@@ -9,8 +9,8 @@ use vfold::{Error, Result};
 
 #[derive(Args)]
 pub struct PictureArgs {
-    /// Draw panels, facets and excluded pixels (red) over the photograph; {} in the name stands for the
-    /// IMAGE's
+    /// Draw panels, facets and excluded pixels (red) over the photograph; {} stands for the name of the
+    /// IMAGE
     #[arg(long, value_name = "FILE.png")]
     overlay: Option<PathBuf>,
     /// Write a small picture for finding corners with share/picker.html, and exit; {} as above

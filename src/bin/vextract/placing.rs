@@ -7,11 +7,11 @@ use vfold::{Error, Result, cli};
 
 #[derive(Args)]
 pub struct PlacingArgs {
-    /// Move the panels' corners to the edges and the crease within PX pixels instead of 6, and report
-    /// sides that have no edge
+    /// Move the panels' corners to the edges and the crease within PX pixels, up to 100, instead of 6, and
+    /// report sides that have no edge
     #[arg(long, value_name = "PX", num_args = 0..=1, require_equals = true, default_missing_value = "6")]
     refine: Option<f64>,
-    /// Leave the corners where they are
+    /// Use the corners as marked, without moving them to the edges
     #[arg(long, conflicts_with = "refine")]
     exact_corners: bool,
     /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the

@@ -16,20 +16,20 @@ pub struct RenderArgs {
     /// (sRGB)
     #[arg(long, value_name = "FILE")]
     pub render: Option<PathBuf>,
-    /// Size of the photograph
+    /// Size of the photograph, px
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
     render_size: (usize, usize),
     /// Position of the camera, in the unit of the panels, for --render and for sheets that are not
     /// perfectly matt [default: a few degrees off the sun's direction]
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     eye: Option<Vector3<f64>>,
-    /// Point that the camera looks at [default: the middle]
+    /// Point that the camera looks at [default: the middle of the sheet]
     #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
     look_at: Option<Vector3<f64>>,
     /// Direction that points upwards in the photograph [default: the crease]
     #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
     up: Option<Vector3<f64>>,
-    /// Horizontal field of view [default: fits the sheet]
+    /// Horizontal field of view, degrees, between 0 and 180 [default: fits the sheet]
     #[arg(long, value_name = "DEG", requires = "render", allow_negative_numbers = true)]
     field_of_view_deg: Option<f64>,
 }

@@ -42,14 +42,16 @@ pub struct ShapeArgs {
     /// The surface of --shape reflects on both sides: its backs are as many facets again
     #[arg(long, requires = "shape")]
     two_sided: bool,
-    /// Creases, valleys of --angle-deg and ridges in turn, first a valley: one more panel than creases
+    /// Number of creases, 1 to 1000: valleys of --angle-deg and ridges in turn, starting with a valley;
+    /// there is one panel more than creases
     #[arg(long, value_name = "N", default_value_t = 1)]
     folds: usize,
     /// Angle between the two panels of a ridge, on its back, degrees [default: that of the valleys]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     ridge_deg: Option<f64>,
-    /// Panels curved in an arc: degrees by which each turns away from the other between the crease, where the
-    /// angle is --angle-deg, and its end, as the pages of an open book do; negative: towards it, a trough
+    /// Angle by which each panel curves away from the other between the crease, where they meet at
+    /// --angle-deg, and its end, like the pages of an open book; degrees, between -180 and 180; negative:
+    /// towards the other, as in a trough
     #[arg(
         long,
         visible_alias = "bow",
