@@ -53,7 +53,7 @@ pub struct StandInRecord {
     #[schemars(range(min = 0))]
     #[serde(alias = "curve_error")]
     pub sensitivity_error: f64,
-    /// Whether the curves are no other camera's, but predicted from its colour matrix.
+    /// Whether the sensitivities are predicted from its colour matrix, not those of another camera.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_predicted: bool,
 }
