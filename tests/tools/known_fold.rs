@@ -138,7 +138,7 @@ fn what_cannot_be_the_known_fold_is_refused() {
         ("gone.ndjson=0.5", 1, "gone.ndjson"),
         ("card-D65.ndjson=cc24", 2, "is a set"),
         ("card-D65.ndjson=short.csv", 1, "its samples cover"),
-        ("scene.ndjson=0.5", 1, "no sample"),
+        ("scene.ndjson=0.5", 1, "no scene followed by a sample"),
         ("chips-D65.ndjson=0.5", 1, "second sample"),
         ("no-facets.ndjson=0.5", 1, "facet_rgb"),
         ("nikon.ndjson=0.5", 2, "one camera"),

@@ -102,7 +102,7 @@ fn numbers_that_end_below_white_are_clipped_there() {
         "cut.tif",
         "",
     );
-    assert!(run.status == 1 && run.stderr.contains("its numbers end at 4096 in R, G and B"), "{run:?}");
+    assert!(run.status == 1 && run.stderr.contains("its numbers are clipped at 4096 in R, G"), "{run:?}");
 }
 
 #[test]
