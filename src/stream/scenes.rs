@@ -113,7 +113,7 @@ impl<T> Scenes<T> {
             return Err(Error::field("scene", format!("{problem}; {REMEDY}")));
         };
         if found.is_ambiguous {
-            let problem = format!("two scenes above the sample are called '{id}', it may belong to either");
+            let problem = format!("two scenes above the sample are called '{id}': it may belong to either");
             return Err(Error::field(
                 "scene",
                 format!("{problem}; {REMEDY}, or name scenes with vkernel --id"),
