@@ -64,7 +64,7 @@ impl Calibration {
         patches.iter().try_for_each(|patch| check(patch, channels))?;
         let polynomials = (0..channels).map(|n| Polynomial::fit(patches, n)).collect::<Result<Vec<_>>>()?;
         let Some(reference) = polynomials.get(reference_channel) else {
-            return Err(Error::Numeric("there is nothing to calibrate with".to_owned()));
+            return Err(Error::Numeric("there are no patches to calibrate with".to_owned()));
         };
         let (exposure, exposure_sd) = reference.gain();
         let polynomials =
@@ -73,7 +73,7 @@ impl Calibration {
         let worst = calibration.residual_rms(patches).into_iter().fold(0.0, f64::max);
         if worst > LARGEST_RESIDUAL {
             return Err(Error::Numeric(format!(
-                "the patches are off by {:.0} % in the mean from what they should be",
+                "on average the patches are off by {:.0} % from their expected values",
                 100.0 * worst
             )));
         }
@@ -139,10 +139,10 @@ impl Calibration {
 fn check(patch: &Patch, channels: usize) -> Result<()> {
     let Patch { name, measured, standard_error, expected } = patch;
     if [measured, standard_error, expected].iter().any(|values| values.len() != channels) {
-        return Err(Error::Numeric(format!("patch '{name}' has not all of {channels} channels")));
+        return Err(Error::Numeric(format!("patch '{name}' lacks some of the {channels} channels")));
     }
     if expected.iter().any(|value| *value <= 0.0) {
-        return Err(Error::Numeric(format!("patch '{name}' has no light to give")));
+        return Err(Error::Numeric(format!("patch '{name}' is expected to be black")));
     }
     Ok(())
 }

@@ -50,7 +50,7 @@ impl CameraResponse {
         let white = response.white();
         if let Some(blind) = white.iter().position(|white| !(*white > 0.0 && white.is_finite())) {
             return Err(Error::Numeric(format!(
-                "channel {blind} of the camera sees nothing of the illuminant on {grid}; check both spectra"
+                "camera channel {blind} does not respond to the illuminant on {grid}; check both spectra"
             )));
         }
         let strongest = (0..white.len()).max_by(|a, b| white[*a].total_cmp(&white[*b])).unwrap_or(0);
@@ -98,7 +98,7 @@ impl CameraResponse {
             Ok(other)
         } else {
             Err(Error::Numeric(
-                "the camera's strongest channel sees nothing of another light; \
+                "the camera's strongest channel does not respond to one of the lights; \
                  check --illuminant and --sky-illuminant"
                     .to_owned(),
             ))

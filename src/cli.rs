@@ -38,13 +38,13 @@ use outcome::{misuse, without_panic};
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Common options")]
 pub struct Common {
-    /// Write here instead of standard output; the file appears when it is whole
+    /// Write to FILE instead of standard output; it appears when it is complete
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Write here as --output does, line by line, and resume an interrupted run of the same command
+    /// Like --output, but write line by line, and resume an interrupted run of the same command
     #[arg(long, value_name = "FILE", conflicts_with = "output")]
     pub resume: Option<PathBuf>,
-    /// Threads to use [default: all cores]
+    /// Threads to use, 1 to 1024 [default: all cores]
     #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Print nothing but errors
@@ -63,14 +63,14 @@ pub struct Common {
     /// Do not record this tool's arguments in the stream
     #[arg(long)]
     pub no_history: bool,
-    /// Print the man page, a shell's completions, or page and JSON Schema of the records
+    /// Print the man page, a shell's completions, or the man page or JSON Schema of the records
     #[arg(long, value_name = "WHAT")]
     pub generate: Option<Generate>,
     /// Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA
     #[arg(long, value_name = "WHAT")]
     pub list: Option<ListWhat>,
-    /// Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions
-    /// [default: in percent if a value is above 2]
+    /// Read files of reflectances without a stated unit as percent, or, with --percent=no, as fractions
+    /// [default: as percent if a value is above 2]
     #[arg(long, value_name = "yes|no", num_args = 0..=1, require_equals = true, default_missing_value = "yes",
         value_parser = clap::builder::BoolishValueParser::new(), hide_possible_values = true)]
     pub percent: Option<bool>,
@@ -190,11 +190,11 @@ fn start_threads(count: Option<u16>) -> Result<()> {
     let count = count.map(usize::from).or_else(in_environment).unwrap_or_else(all);
     // running threads abort the program if the stack of a later one leaves them no memory
     let room = LEAST_ROOM + STACK * count as u64;
-    room::ask(room, &format!("a run on {count} threads"), "take fewer with --threads")?;
+    room::ask(room, &format!("a run on {count} threads"), "use fewer with --threads")?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count);
     pool.build_global().map_err(|error| {
         Error::Numeric(format!(
-            "the system gives no threads ({error}); take fewer with --threads, or allow more memory"
+            "cannot start threads ({error}); use fewer with --threads, or allow more memory (ulimit -v)"
         ))
     })
 }
@@ -262,17 +262,18 @@ pub fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the
-    /// sun of a cloudless day, or a file; of a photograph also unknown: vestimate finds it; repeated: a
-    /// picture under each, or, of a shape under several lights, one picture with these in the order of the
-    /// lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun's]
+    /// Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at
+    /// an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), or a file; for a
+    /// photograph also unknown: vestimate finds it. Repeated: a picture under each, or, for a shape under
+    /// several lights, one picture with an illuminant per light in their order, skies not counted [default:
+    /// D65; for a photograph that states where and when it was taken, the sun's]
     #[arg(long, value_name = "SPEC", value_parser = light)]
     pub illuminant: Vec<String>,
     /// Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant
-    /// [default: that of the sun]
+    /// [default: the same as the sun's]
     #[arg(long, value_name = "SPEC", value_parser = light)]
     pub sky_illuminant: Option<String>,
-    /// Wavelengths, nm
+    /// Wavelengths, nm: the first, the last and the step
     #[arg(long, value_name = "FIRST:LAST:STEP", default_value = "400:700:5", value_parser = wavelengths)]
     pub wavelengths_nm: WavelengthGrid,
 }
@@ -285,7 +286,7 @@ pub struct OpticsArgs {
 ///
 /// # Example
 /// ```
-/// assert!(vfold::cli::light("2856").unwrap_err().starts_with("a number may be a temperature (2856K,"));
+/// assert!(vfold::cli::light("2856").unwrap_err().contains("a black body (2856K)"));
 /// assert_eq!(vfold::cli::light("2856K").as_deref(), Ok("2856K"));
 /// assert_eq!(vfold::cli::light("1").as_deref(), Ok("1"));
 /// ```
@@ -299,8 +300,8 @@ pub fn light(text: &str) -> std::result::Result<String, String> {
             let black_body = if (1000.0..=25000.0).contains(&value) { number } else { "2856" };
             let daylight = if (4000.0..=25000.0).contains(&value) { number } else { "5500" };
             Err(format!(
-                "a number may be a temperature ({black_body}K, a black body; daylight:{daylight}, daylight) \
-                 or a flat spectrum (E, or 1): write which"
+                "a number may mean a black body ({black_body}K), daylight (daylight:{daylight}) or a flat \
+                 spectrum (E, or 1): write which"
             ))
         }
         _ => Ok(text.to_owned()),
@@ -324,7 +325,7 @@ impl OpticsArgs {
         match self.illuminant.as_slice() {
             [] => Ok(ASSUMED_LIGHT),
             [one] => Ok(one),
-            several => Err(Error::usage("--illuminant", format!("{} are given", several.len()), why)),
+            several => Err(Error::usage("--illuminant", format!("{} illuminants", several.len()), why)),
         }
     }
 
@@ -334,7 +335,7 @@ impl OpticsArgs {
     /// [`Error::Usage`] if one of the illuminants is.
     pub fn known_illuminants(&self, why: &str) -> Result<()> {
         match self.illuminant.iter().chain(&self.sky_illuminant).any(|spec| spec == UNKNOWN_LIGHT) {
-            true => Err(Error::usage("--illuminant", format!("'{UNKNOWN_LIGHT}' is no light"), why)),
+            true => Err(Error::usage("--illuminant", format!("'{UNKNOWN_LIGHT}' names no light"), why)),
             false => Ok(()),
         }
     }
@@ -368,9 +369,9 @@ impl OpticsArgs {
         match (self.sky_illuminant.as_deref(), self.illuminant.as_slice()) {
             (Some("sky"), [sun, ..]) if sun.starts_with("sun:") => Ok(Some(sun.replacen("sun:", "sky:", 1))),
             (Some("sky"), _) => {
-                let problem = "the sky of which sun?";
+                let problem = "'sky' needs a sun";
                 let remedy =
-                    "give --illuminant sun:40deg or sun:LAT,LON,TIME with it, or --sky-illuminant sky:40deg";
+                    "add --illuminant sun:40deg or sun:LAT,LON,TIME, or give --sky-illuminant sky:40deg";
                 Err(Error::usage("--sky-illuminant", problem, remedy))
             }
             (spec, _) => Ok(spec.map(str::to_owned)),

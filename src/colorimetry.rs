@@ -75,7 +75,7 @@ impl Colorimeter {
         if white.iter().any(|&value| value <= 0.0) {
             let name = illuminant.name();
             return Err(Error::Numeric(format!(
-                "illuminant '{name}' on {grid} gives no white to judge colours by (XYZ {white:?}); \
+                "illuminant '{name}' on {grid} has no white point (XYZ {white:?}); \
                  choose another illuminant or grid"
             )));
         }

@@ -161,7 +161,7 @@ pub enum Error {
     },
 
     /// The patches of a surface exchange light among more pairs than can be stored.
-    #[error("{name}: the exchange between {patches} patches fills more than a gigabyte; take a coarser mesh")]
+    #[error("{name}: the exchange between {patches} patches fills more than a gigabyte; use a coarser mesh")]
     FullExchange {
         /// Its file, or just `shape`.
         name: String,
@@ -171,7 +171,7 @@ pub enum Error {
 
     // ---- numbers ----
     /// A check found a physical law violated.
-    #[error("the kernel breaks a law: {0}")]
+    #[error("the kernel fails these checks: {0}")]
     BrokenLaw(String),
     /// A computation has no meaningful result.
     #[error("{0}")]
@@ -181,7 +181,7 @@ pub enum Error {
     #[error("--plot: {0}; check the samples' errors")]
     NothingToDraw(&'static str),
     /// There is not enough memory for a computation.
-    #[error("{what}: no room for {megabytes} MB; {remedy}, or allow more memory (ulimit -v)")]
+    #[error("{what}: not enough memory for {megabytes} MB; {remedy}, or allow more memory (ulimit -v)")]
     Memory {
         /// Its purpose.
         what: String,
@@ -193,7 +193,7 @@ pub enum Error {
 
     // ---- ours ----
     /// The tool reached a state that it was not written for.
-    #[error("a fault of this program: {0}; report it with what it was given")]
+    #[error("a fault of this program: {0}; please report it with the command and its input")]
     Fault(String),
 }
 

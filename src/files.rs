@@ -66,7 +66,7 @@ impl Saved {
             Ok(_) => path.canonicalize().map_err(failed)?,
             // a link to itself or to nothing is a mistake
             Err(_) if path.is_symlink() => {
-                return Err(failed(io::Error::other("a link that leads to no file")));
+                return Err(failed(io::Error::other("a link to a missing file")));
             }
             Err(_) => path.to_owned(),
         };
@@ -161,8 +161,8 @@ impl Claim {
         if claimed().insert(name.clone()) {
             return Ok(Self(name));
         }
-        let problem = format!("two of this run would go to {}", path.display());
-        Err(Error::usage("outputs", problem, "give each a name of its own"))
+        let problem = format!("two would be written to {}", path.display());
+        Err(Error::usage("outputs", problem, "give each its own name"))
     }
 }
 
@@ -276,7 +276,7 @@ mod tests {
         for (link, target) in [("loop", "loop"), ("dangling", "nowhere")] {
             let link = folder.path().join(link);
             std::os::unix::fs::symlink(target, &link).unwrap();
-            assert!(Saved::new(&link).is_err_and(|error| error.to_string().contains("leads to no file")));
+            assert!(Saved::new(&link).is_err_and(|error| error.to_string().contains("to a missing file")));
             assert!(link.is_symlink());
         }
     }

@@ -62,7 +62,7 @@ pub fn in_order<I: Send, O: Send>(
         };
         let drawing = thread::Builder::new().spawn_scoped(threads, draw);
         drawing.map_err(|error| {
-            Error::Numeric(format!("the system gives no thread ({error}); allow more memory or processes"))
+            Error::Numeric(format!("cannot start a thread ({error}); allow more memory or processes"))
         })?;
         // A place stays empty if its work panicked; the scope passes the panic on.
         results.into_iter().map_while(|place| place.recv().ok()).flatten().try_for_each(&mut done)

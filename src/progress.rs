@@ -116,7 +116,7 @@ fn write_line(tool: &str, state: &ProgressState, line: &mut dyn fmt::Write) -> f
         return Ok(());
     }
     if state.pos() == 0 {
-        return write!(line, "{tool}: at work for {:#}", HumanDuration(state.elapsed()));
+        return write!(line, "{tool}: running for {:#}", HumanDuration(state.elapsed()));
     }
     write!(line, "{tool}: {}, {:.1}/s", Count { samples: state.pos(), of: state.len() }, state.per_sec())?;
     match state.len() {

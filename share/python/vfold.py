@@ -151,9 +151,9 @@ def measure(path: PathLike, *, regions: Optional[Regions] = None, **known: Any) 
     flags = _flags(known)
     has_panels = any(known.get(panel) is not None for panel in ("panel0", "panel1"))
     if has_panels and known.get("angle_deg") is None:
-        raise TypeError("panel0 and panel1 do not give their angle: give angle_deg, too, or regions in their place")
+        raise TypeError("panel0 and panel1 do not state the angle: add angle_deg, or give regions instead")
     if has_panels and regions is not None:
-        raise TypeError("corners are given twice: by regions, and by panel0 or panel1")
+        raise TypeError("corners are stated twice, by regions and by panel0 or panel1: keep one")
     notes: list[str] = []
     with tempfile.TemporaryDirectory() as folder:
         placed: list[str] = []
@@ -207,7 +207,7 @@ def read_spectra(path: PathLike) -> list[Spectrum]:
     with open(path, newline="", encoding="utf-8-sig") as file:
         rows = [row for row in csv.reader(file) if row]
     if len(rows) < 2 or len(rows[0]) < 2:
-        raise ValueError(f"{os.fspath(path)}: no table of spectra: a header, then a line for each wavelength")
+        raise ValueError(f"{os.fspath(path)}: not a table of spectra: it needs a header, then a line for each wavelength")
     names = rows[0][1:]
     try:
         wavelengths_nm, *columns = np.array(rows[1:], dtype=float).T
@@ -283,7 +283,7 @@ def _words(name: str, value: Any) -> list[str]:
     elif name in CORNERS:
         corners = np.asarray(value, dtype=float)
         if corners.shape != (4, 2):
-            raise TypeError(f"{name}: four corners of two numbers are wanted, not shape {corners.shape}")
+            raise TypeError(f"{name}: four corners of two numbers are needed, not shape {corners.shape}")
         text = " ".join(f"{x!r},{y!r}" for x, y in corners.tolist())
     elif isinstance(value, (Sequence, np.ndarray)):
         text = BETWEEN.get(name, ",").join(str(part) for part in value)

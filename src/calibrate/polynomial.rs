@@ -37,7 +37,7 @@ impl Polynomial {
         let brightest =
             data.clone().fold((0.0, 0.0), |(m, e): (f64, f64), datum| (m.max(datum.0), e.max(datum.2)));
         let falls =
-            || Error::Numeric(format!("channel {channel} does not rise with what the patches should be"));
+            || Error::Numeric(format!("channel {channel} does not rise with the patches' expected values"));
         if !(brightest.0 > 0.0 && brightest.1 > 0.0) {
             return Err(falls());
         }

@@ -119,14 +119,14 @@ impl ChartCamera {
         let fits = PATCH_SDS.into_iter().filter_map(fit).filter(|(doubt, ..)| doubt.is_finite());
         let (_, patch_sd, solved) = fits
             .min_by(|a, b| a.0.total_cmp(&b.0))
-            .ok_or_else(|| Error::Numeric("the patches determine no camera".to_owned()))?;
+            .ok_or_else(|| Error::Numeric("the patches do not determine a camera".to_owned()))?;
         let sensitivities = (&prior.mean + &spread * solved.solve(&residuals)).map(|value| value.max(0.0));
         let covariance = &prior.covariance - &spread * solved.solve(&spread.transpose());
         let residual = residual(&(&design * &sensitivities), &measured, patches.len());
         if residual > LARGEST_RESIDUAL {
             let percent = 100.0 * residual;
             return Err(Error::Numeric(format!(
-                "the patches are off by {percent:.0} % in the mean from what any camera makes of them"
+                "on average the patches are off by {percent:.0} % from any camera's response"
             )));
         }
         let peak = sensitivities.rows(bands, bands).max();

@@ -43,8 +43,8 @@ impl Why {
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Self::Maker => "the most usual of its maker",
-            Self::Any => "the most usual of all makers",
+            Self::Maker => "the most typical of its maker",
+            Self::Any => "the most typical of all makers",
         }
     }
 }

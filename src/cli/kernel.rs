@@ -15,10 +15,10 @@ pub struct KernelArgs {
     /// i that reaches j
     #[arg(long, value_name = "K.npy")]
     pub kernel: Option<PathBuf>,
-    /// Direct light: one number per facet, or one row per source [default: 1 everywhere]
+    /// Direct irradiance: one number per facet, or one row per source [default: 1 everywhere]
     #[arg(long, value_name = "E0.npy", requires = "kernel")]
     pub irradiance: Option<PathBuf>,
-    /// Areas of the facets [default: those that reciprocity asks for]
+    /// Areas of the facets, in any unit [default: those that reciprocity implies]
     #[arg(long, value_name = "A.npy", requires = "kernel")]
     pub areas: Option<PathBuf>,
 }

@@ -11,8 +11,8 @@ use crate::stream::Material;
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Materials")]
 pub struct MaterialArgs {
-    /// A group of a shape's facets has this reflectance; repeated for several groups. All other facets are
-    /// the sheet
+    /// Reflectance of a group of a shape's facets; repeat for several groups. All other facets are the
+    /// sheet
     #[arg(long, value_name = "GROUP=SPEC", value_parser = group_and_spec)]
     pub material: Vec<(String, String)>,
 }
@@ -27,7 +27,7 @@ impl MaterialArgs {
         let mut materials: Vec<Material> = Vec::new();
         for (group, spec) in &self.material {
             if materials.iter().any(|material| material.group == *group) {
-                return Err(Error::usage("--material", format!("'{group}' has two"), "give one a group"));
+                return Err(Error::usage("--material", format!("'{group}' is stated twice"), "keep one"));
             }
             let spectrum = common.one_reflectance("--material", spec)?;
             let reflectance = spectrum.on(grid, Outside::Refuse)?;

@@ -28,9 +28,9 @@ pub(super) fn misuse(rendered: &str) -> String {
 
 /// Rust's messages for text that is not a number, and plain ones.
 const NUMBERS: [(&str, &str); 5] = [
-    ("invalid float literal", "that is no number"),
-    ("invalid digit found in string", "that is no whole number of 0 or more"),
-    ("cannot parse integer from empty string", "there is no number"),
-    ("cannot parse float from empty string", "there is no number"),
-    ("number too large to fit in target type", "that is too large"),
+    ("invalid float literal", "not a number"),
+    ("invalid digit found in string", "not a whole number of 0 or more"),
+    ("cannot parse integer from empty string", "a number is missing"),
+    ("cannot parse float from empty string", "a number is missing"),
+    ("number too large to fit in target type", "too large"),
 ];

@@ -93,7 +93,7 @@ pub fn ask_on_page<T>(
         }
         let mut text = String::new();
         if request.as_reader().take(LONGEST_ANSWER).read_to_string(&mut text).is_err() {
-            send(request, 400, "text/plain", b"this is no text");
+            send(request, 400, "text/plain", b"not text in UTF-8");
             continue;
         }
         match reply(&name, &text) {

@@ -44,8 +44,8 @@ impl Fluorescence {
         let per_cent = 100.0 * probability;
         match self.origin {
             Origin::Ultraviolet => Some(format!(
-                "with a probability of {per_cent:.0} % the sheet is brightened: \
-                 at about {:.0} nm it sends out {size:.2} ± {size_sd:.2} of white under this light",
+                "with a probability of {per_cent:.0} % the sheet contains a brightener: \
+                 at about {:.0} nm it emits {size:.2} ± {size_sd:.2} of white under this light",
                 self.rounded_peak_nm()
             )),
             Origin::Behind if *size > NOTEWORTHY => Some(format!(

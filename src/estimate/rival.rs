@@ -32,8 +32,8 @@ impl Rival {
     #[must_use]
     pub fn doubt_of_light(&self, stated: &str) -> Doubt {
         Doubt::new(
-            format!("{self} as the {stated} you gave"),
-            "check the light, or have it found (--illuminant unknown)",
+            format!("{self} as the {stated} you stated"),
+            "check the light, or let vestimate find it (--illuminant unknown)",
         )
     }
 
@@ -41,8 +41,9 @@ impl Rival {
     #[must_use]
     pub fn doubt_of_camera(&self, stated: &str) -> Doubt {
         Doubt::new(
-            format!("{self} as the {stated} you gave"),
-            "check the camera, or make its curves of a photograph of a colour chart (vextract --save-camera)",
+            format!("{self} as the {stated} you stated"),
+            "check the camera, or derive its sensitivities from a photograph of a colour chart \
+             (vextract --save-camera)",
         )
     }
 }

@@ -83,7 +83,7 @@ impl<'a> Shading<'a> {
         (mean.abs() > PANELS_APART).then(|| {
             Doubt::new(
                 format!(
-                    "panel {} is {:.1} times as bright beside the other as this sun makes it: \
+                    "relative to the other, panel {} is {:.1} times as bright as the stated sun makes it: \
                      a shadow, another light, or a sun far off the middle",
                     usize::from(mean < 0.0),
                     mean.abs().exp()
@@ -113,10 +113,10 @@ impl<'a> Shading<'a> {
         [0, 1].into_iter().find(|panel| is_uneven(*panel)).map(|panel| {
             Doubt::new(
                 format!(
-                    "panel {panel} is not alike at both ends of the crease: a shadow, a lamp near by, \
+                    "panel {panel} differs between the ends of the crease: a shadow, a lamp nearby, \
                      a pattern, or corners not at the crease"
                 ),
-                "photograph a sheet of one colour, in even light; look at vextract --overlay",
+                "photograph a sheet of one colour in even light; check with vextract --overlay",
             )
         })
     }
@@ -142,7 +142,7 @@ impl<'a> Shading<'a> {
             level,
             because: format!(
                 "{which} at the outer side: a ridge instead of a valley, corners in another order, \
-                 no direct sun, or a lamp near by"
+                 no direct sun, or a lamp nearby"
             ),
             remedy: "check the order of the corners; photograph a valley in direct sunlight".to_owned(),
         })
@@ -153,10 +153,10 @@ impl<'a> Shading<'a> {
         let (least, most) = extremes(self.panels_apart())?;
         (most.ln - least.ln - SURE * most.sd.hypot(least.sd) > COLOURS_APART).then(|| {
             Doubt::new(
-                "the panels have different colours: two sheets, or a coloured thing \
-                 that shines on one of them",
+                "the panels have different colours: two sheets, or a coloured object \
+                 that reflects light onto one of them",
                 "fold one sheet of one colour, away from coloured walls and cloth; \
-                 a card of known colour as panel 1 is given by --reference-panel",
+                 state a card of known colour as panel 1 with --reference-panel",
             )
         })
     }

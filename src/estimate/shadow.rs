@@ -90,7 +90,7 @@ impl Shadow {
         let (count, panel) = (self.facets.len(), self.panel);
         Doubt::new(
             format!("a shadow lies on panel {panel}, {count} facets of which are left out"),
-            "stand aside, and photograph it again without a shadow",
+            "photograph it again without the shadow",
         )
     }
 }

@@ -63,28 +63,27 @@ pub fn doubts_of_taking(stated: &Stated, making: &Making) -> Vec<Doubt> {
 fn developed(making: &Making) -> Option<Doubt> {
     making.is_developed.then(|| Doubt {
         level: Level::Wrong,
-        because: "this picture was developed for the eye, and neither white balance nor matrix was undone"
+        because: "this picture was developed for the eye, \
+                  and neither white balance nor colour matrix was undone"
             .to_owned(),
         remedy:
-            "take the RAW file, or give vextract --undo, or --transfer if its numbers are the camera's own"
+            "use the RAW file, or give vextract --undo, or --transfer if its numbers are the camera's own"
                 .to_owned(),
     })
 }
 
 fn processed(making: &Making) -> Option<Doubt> {
     let because = |processing| match processing {
-        Processing::Curve => {
-            "noise falls as brightness rises: the picture's numbers have a curve such as sRGB's"
-        }
+        Processing::Curve => "noise falls as brightness rises: a tone curve such as sRGB's was applied",
         Processing::Matrix => {
-            "the noise of the channels goes opposite ways: a matrix mixed them, \
-             as programs do that develop RAW files"
+            "noise in the channels is anticorrelated: a colour matrix mixed them, \
+             as programs that develop RAW files do"
         }
     };
     making.processing.map(|processing| Doubt {
         level: Level::Wrong,
         because: because(processing).to_owned(),
-        remedy: "take the RAW file, or a linear TIFF in the camera's own colours".to_owned(),
+        remedy: "use the RAW file, or a linear TIFF in the camera's own colours".to_owned(),
     })
 }
 
@@ -93,8 +92,8 @@ fn black(making: &Making) -> Option<Doubt> {
         let percent = 100.0 * part;
         Doubt::new(
             format!(
-                "the darkest pixels are {percent:.2} % of white in all channels alike: \
-                 black was not subtracted, it seems"
+                "the darkest pixels are {percent:.2} % of white in every channel: \
+                 black was probably not subtracted"
             ),
             "give vextract --black-level auto, or the camera's black level",
         )
@@ -106,10 +105,10 @@ fn open_sides(making: &Making) -> Option<Doubt> {
     (!sides.is_empty()).then(|| {
         Doubt::new(
             format!(
-                "no edge of the sheet lies along {sides}: it goes on beyond the corners, \
+                "no edge of the sheet lies along {sides}: it extends beyond the corners, \
                  or does not reach them"
             ),
-            "mark the corners of the whole panels, as vextract --overlay shows them",
+            "mark the corners of whole panels, and check them with vextract --overlay",
         )
     })
 }
@@ -118,9 +117,9 @@ fn open_sides(making: &Making) -> Option<Doubt> {
 fn other_fold(making: &Making) -> Option<Doubt> {
     making.other_fold.map(|other| {
         Doubt::new(
-            format!("the corners are not those of the fold that was stated, but {other}"),
-            "measure the sheet and the angle again, look at vextract --overlay, or give vkernel what \
-             vextract --find prints, as --regions",
+            format!("the corners are not those of the stated fold, but {other}"),
+            "measure sheet and angle again, check the corners with vextract --overlay, \
+             or give the output of vextract --find to vkernel --regions",
         )
     })
 }
@@ -135,7 +134,7 @@ fn scaled(Stated { camera, has_one_peak, .. }: &Stated) -> Option<Doubt> {
                 "all channels of the camera {camera} have the same peak: scaled one by one, \
                  they have lost their ratios"
             ),
-            "give curves on one scale, or make them of a photograph \
+            "give sensitivities on one scale, or derive them from a photograph \
              of a colour chart (vextract --save-camera)",
         )
     })
@@ -145,12 +144,12 @@ fn stand_in(stated: &Stated) -> Option<Doubt> {
     let instead = if stated.is_predicted {
         "they are predicted from its colour matrix"
     } else {
-        "another camera's stand in for them"
+        "those of another camera stand in"
     };
     stated.stands_in_for.as_ref().map(|unmeasured| {
         Doubt::new(
-            format!("nobody measured the curves of {unmeasured}: {instead}"),
-            "make them of a photograph of a colour chart (vextract --save-camera)",
+            format!("the sensitivities of {unmeasured} have not been measured: {instead}"),
+            "derive them from a photograph of a colour chart (vextract --save-camera)",
         )
     })
 }

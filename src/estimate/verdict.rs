@@ -86,8 +86,8 @@ impl Verdict {
             None => Self {
                 level: Level::Good,
                 because: format!(
-                    "facets within {:.1} times their expected error; it rests on {assumed}, \
-                     taken to be right",
+                    "model and facets agree to {:.1} times the expected error; \
+                     the facets cannot confirm {assumed}",
                     estimate.residual_rms
                 ),
                 remedy: None,
@@ -111,8 +111,8 @@ pub fn refuse_unexplained(estimate: &Estimate, noise: impl FnOnce() -> Result<f6
         return Ok(());
     }
     let problem = format!(
-        "{:.0} % of the light is not what any reflectance gives; check exposure, noise, angle, \
-         corners, light and camera",
+        "no reflectance explains {:.0} % of the light; check exposure, noise, angle, corners, \
+         light and camera",
         100.0 * estimate.unexplained
     );
     Err(Error::field("facet_rgb", problem))
@@ -131,16 +131,16 @@ pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doub
     let off = (exposure.ln() - mean - longer) / sd;
     let level = if off.abs() > EXPOSURE_WRONG { Level::Wrong } else { Level::Doubtful };
     let remedy = if stated.is_some() {
-        "state the exposure as a fraction of the picture's white level, such as 0.8"
+        "state --exposure as a fraction of the picture's white level, such as 0.8"
     } else {
-        "check that the sheet is folded, its proportions, angle, corners and light; \
+        "check the fold, its proportions, angle, corners and light; \
          put a white card or a chart in the picture"
     };
     (!(-EXPOSURE_WRONG..=EXPOSURE_DOUBTFUL).contains(&off)).then(|| Doubt {
         level,
         because: format!(
-            "white that faces the sun would be {exposure:.3} times the white level of the picture, \
-             which people do not expose to"
+            "white facing the sun would be {exposure:.3} times the white level of the picture: \
+             an improbable exposure"
         ),
         remedy: remedy.to_owned(),
     })
@@ -153,8 +153,7 @@ pub fn other_exposure(stated: Exposure, found: &Estimate) -> Option<Doubt> {
     let stated = stated.known()?;
     let apart = (value / stated).ln().abs();
     (apart > EXPOSURE_APART && apart * value > SURE * sd).then(|| {
-        let because =
-            format!("the facets are those of an exposure of {value:.2} ± {sd:.2}, not {stated} as stated");
+        let because = format!("the facets show an exposure of {value:.2} ± {sd:.2}, not {stated} as stated");
         Doubt::new(
             because,
             "leave --exposure out, or measure it again with a white card or chart in the sheet's light",
@@ -179,9 +178,7 @@ pub fn other_angle(found: &Estimate, stated_deg: f64) -> Option<Doubt> {
 #[must_use]
 pub fn unusual_findings(estimate: &Estimate) -> Vec<Doubt> {
     let unusual = estimate.findings.iter().filter(|finding| finding.is_unusual);
-    unusual
-        .map(|finding| Doubt::new(format!("{}, more than is usual", finding.what), finding.remedy))
-        .collect()
+    unusual.map(|finding| Doubt::new(format!("{}, more than usual", finding.what), finding.remedy)).collect()
 }
 
 /// Panels between which probably no light bounces.
@@ -189,10 +186,10 @@ fn without_bounces(estimate: &Estimate) -> Option<Doubt> {
     let level = if estimate.without_bounces > NO_FOLD { Level::Wrong } else { Level::Doubtful };
     (estimate.without_bounces > PROBABLY_NO_FOLD).then(|| Doubt {
         level,
-        because: "the facets are those of panels between which no light bounces: \
-                  a flat sheet, corners elsewhere than at the crease, or an exposure that is not true"
+        because: "no light seems to bounce between the panels: a flat sheet, corners not at the crease, \
+                  or a wrong exposure"
             .to_owned(),
-        remedy: "check that the sheet is folded, the corners and the exposure; \
+        remedy: "check the fold, the corners and the exposure; \
                  put a white card or a chart in the picture"
             .to_owned(),
     })
@@ -204,7 +201,7 @@ fn far_off(estimate: &Estimate) -> Option<Doubt> {
     let level = if rms > WRONG_CHI { Level::Wrong } else { Level::Doubtful };
     (rms >= EXPLAINED).then(|| Doubt {
         level,
-        because: format!("the model misfits the facets by {rms:.1} times the noise"),
+        because: format!("the facets differ from the model by {rms:.1} times the noise"),
         remedy: CHECK.to_owned(),
     })
 }
@@ -220,8 +217,8 @@ fn too_open(estimate: &Estimate) -> Option<f64> {
 fn open(estimate: &Estimate) -> Option<Doubt> {
     too_open(estimate).map(|mean| {
         Doubt::new(
-            format!("the facets leave the reflectance open by ± {:.2} in the mean", 2.0 * mean),
-            "a chart or card in the picture, more light, less noise or an angle nearer to 45° determine more",
+            format!("the facets fix the reflectance only to ± {:.2} on average", 2.0 * mean),
+            "put a chart or card in the picture, use more light, or fold nearer to 45°",
         )
     })
 }
@@ -273,7 +270,7 @@ mod tests {
         let wrong = of(6.0, 0.1, vec![Doubt::new("another", "remedy")]);
         assert!(
             wrong.level == Level::Wrong
-                && wrong.because.starts_with("the model misfits the facets by 6.0 times"),
+                && wrong.because.starts_with("the facets differ from the model by 6.0 times"),
             "{wrong:?}"
         );
         assert!(wrong.because.ends_with("; also, another"), "{wrong:?}");

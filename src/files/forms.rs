@@ -20,7 +20,7 @@ impl Form {
 
     /// The remedy, if a command converts it to text.
     pub fn way_out(&self) -> Option<String> {
-        self.command.map(|command| format!("put it through {command} first"))
+        self.command.map(|command| format!("run it through {command} first"))
     }
 }
 
@@ -40,7 +40,7 @@ const FORMS: [(&[u8], Form); 11] = [
     (b"\0\0\0{", Form::undone_by(UTF_32, "iconv -f UTF-32BE -t UTF-8")),
 ];
 const UTF_32: &str = "text in UTF-32";
-const NO_TEXT: Form = Form::document("no text");
+const NO_TEXT: Form = Form::document("not text");
 
 /// Some programs put this before text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
@@ -160,7 +160,7 @@ mod tests {
             (b"\x28\xb5\x2f\xfd\x04", "compressed by zstd", Some("put it through zstd -dc first")),
             (b"\xff\xfe\0\0n\0\0\0", "text in UTF-32", Some("put it through iconv -f UTF-32 -t UTF-8 first")),
             (b"\xd0\xcf\x11\xe0\xa1", "a spreadsheet (XLS)", None),
-            (b"\x7fELF\x02\x01\x01\0\0\0\0\0", "no text", None),
+            (b"\x7fELF\x02\x01\x01\0\0\0\0\0", "not text", None),
         ] {
             let form = Text::decode(bytes).err().unwrap();
             assert_eq!((form.name, form.way_out().as_deref()), (name, way_out));

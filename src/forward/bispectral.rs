@@ -42,8 +42,8 @@ impl BispectralLight {
                     "it has no power at {} nm, where the sheet fluoresces",
                     grid.wavelengths_nm()[dark]
                 ),
-                remedy: "choose other wavelengths or another light: what is sent out is counted \
-                         in parts of white's light"
+                remedy: "choose other wavelengths or another light: emission is a fraction \
+                         of white's light"
                     .to_owned(),
             });
         }
@@ -90,8 +90,8 @@ impl<'a> BispectralSheet<'a> {
         if model.is_of_one_sheet() {
             return Ok(Self { model, sheet, lights });
         }
-        let problem = "nobody knows what parts of known reflectance hand on of the light that excites \
-                       a sheet; fold the sheet alone";
+        let problem = "fluorescence is not computed beside parts of known reflectance; \
+                       fold the sheet alone";
         Err(Error::field("fluorescence", problem))
     }
 

@@ -43,7 +43,7 @@ impl<'a> Fluorescing<'a> {
         if model.is_of_one_sheet() {
             return Ok(Self { model, reflectance, fluorescence });
         }
-        let problem = "light by way of parts of known reflectance excites a sheet by nobody knows how much; \
+        let problem = "fluorescence is not computed beside parts of known reflectance; \
                        fold the sheet alone";
         Err(Error::field("fluorescence", problem))
     }

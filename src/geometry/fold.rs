@@ -107,7 +107,7 @@ impl Fold {
             return Err(Error::usage(
                 "--panel",
                 format!("{width:?}x{depth:?} is not a panel"),
-                "give width along the crease x depth, both positive, at most 1000 times each other",
+                "give WIDTHxDEPTH, both above 0, neither more than 1000 times the other",
             ));
         }
         check_facets(facets)?;
@@ -123,7 +123,7 @@ impl Fold {
             return Err(Error::usage(
                 "--panel1-depth",
                 format!("{depth} is not the depth of a panel"),
-                "give a positive number, at most 1000 times panel 0's sides or a thousandth of them",
+                "give a number above 0, from a thousandth of panel 0's sides to 1000 times them",
             ));
         }
         Ok(Self { depths: [self.depths[0], depth], ..self })
@@ -224,14 +224,14 @@ fn check_facets(FacetGrid { rows, cols }: FacetGrid) -> Result<()> {
         return Err(Error::usage(
             "--facets",
             format!("the kernel of {rows}x{cols} facets would take {:.3e} GB", 8e-9 * entries),
-            format!("give rows x columns, at most {FACETS_MAX} facets a panel and 0.5 GB"),
+            format!("give ROWSxCOLS, at most {FACETS_MAX} facets a panel and 0.5 GB"),
         ));
     };
     if count == 0 {
         return Err(Error::usage(
             "--facets",
-            format!("{rows}x{cols} is no facet"),
-            "give rows x columns, at least 1x1",
+            format!("{rows}x{cols} leaves no facet"),
+            "give ROWSxCOLS, at least 1x1",
         ));
     }
     Ok(())

@@ -57,8 +57,8 @@ impl Light {
         if !(0.0..=1e6).contains(&sky) && !is_sky_alone {
             return Err(Error::usage(
                 "--sky",
-                format!("{sky} is not a share of the sun's irradiance"),
-                "give a number from 0 (no sky), or only",
+                format!("{sky} is not a ratio to the sun's irradiance"),
+                "give 0 (no sky) or more, or 'only'",
             ));
         }
         let (sun, sky) = if is_sky_alone { (0.0, 1.0) } else { (1.0, sky) };

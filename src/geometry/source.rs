@@ -148,10 +148,7 @@ impl LightSource {
             && along.dot(&across).abs() < SKEW * along.norm() * across.norm()
             && along.cross(&across).norm() > 0.0;
         if !is_rectangle {
-            return Err(Error::field(
-                "light",
-                "the corners of a lamp or a window are not those of a rectangle",
-            ));
+            return Err(Error::field("light", "the corners of a lamp or window do not form a rectangle"));
         }
         Ok(Self::Area { corners, irradiance: possible(irradiance)?, distance })
     }
@@ -218,14 +215,14 @@ fn check_place(at: [f64; 3], distance: f64) -> Result<()> {
     if at.iter().all(|x| x.abs() < FURTHEST) && distance > 0.0 && distance < FURTHEST {
         return Ok(());
     }
-    Err(Error::field("light", format!("{at:?}, at a distance of {distance}, is no place of a lamp")))
+    Err(Error::field("light", format!("a lamp cannot be at {at:?}, at a distance of {distance}")))
 }
 
 fn direction(vector: [f64; 3]) -> Result<Vector3<f64>> {
     let unit = Vector3::from(vector).try_normalize(f64::MIN_POSITIVE);
     let unit = unit.filter(|unit| unit.iter().all(|x| x.is_finite()));
     unit.ok_or_else(|| {
-        Error::field("light", format!("{vector:?} is no direction; give X,Y,Z towards the light"))
+        Error::field("light", format!("{vector:?} is not a direction; give X,Y,Z towards the light"))
     })
 }
 
@@ -235,6 +232,6 @@ fn possible(irradiance: f64) -> Result<f64> {
     }
     Err(Error::field(
         "light",
-        format!("an irradiance of {irradiance:?}; it is relative to the first light's, 1 for example"),
+        format!("the irradiance {irradiance:?} is out of range; it is relative, such as 1"),
     ))
 }

@@ -65,7 +65,7 @@ fn refine_here(fold: &Fold, tolerance: f64) -> Result<Refined> {
     let Some((coarse, mut fine)) = first_two(fold, AIM * tolerance)? else {
         return Err(Error::usage(
             "--tolerance",
-            format!("{tolerance:e} takes more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
+            format!("{tolerance:e} needs more than {UNKNOWNS_MAX} unknowns at {}°", fold.angle_deg()),
             "give a larger tolerance or --mesh facets",
         ));
     };
@@ -111,7 +111,7 @@ fn solve(fold: &Fold, aim: f64, poles: usize) -> Result<Option<Solution>> {
         return Ok(None);
     }
     let numbers = unknowns as u64 * (unknowns + resolution.readings(fold)) as u64;
-    room::ask(8 * numbers, "the exchange between undivided panels", "take fewer facets")?;
+    room::ask(8 * numbers, "the exchange between undivided panels", "use fewer facets")?;
     let (response, residual) = Response::solve(&Continuum::new(fold, &resolution), 0.1 * aim * loss(fold))?;
     Ok(Some(Solution { aim, response, unknowns, residual }))
 }

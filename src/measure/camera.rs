@@ -83,9 +83,9 @@ fn predicted(make: &str, of: &str, matrix: &ColourMatrix) -> Result<Option<Camer
     let channels = ["R", "G", "B"].into_iter().zip(sensitivities).map(channel).collect::<Result<_>>()?;
     let percent = 100.0 * PREDICTED_ERROR;
     let note = format!(
-        "warning: nobody measured the curves of {of}: they are predicted from its colour matrix, which \
-         is off by {percent:.1} % of green's peak in the mean; photograph a colour chart (--save-camera), \
-         or name a camera or file (--camera)"
+        "warning: the sensitivities of {of} have not been measured: they are predicted from its colour \
+         matrix, with a mean error of {percent:.1} % of green's peak; photograph a colour chart \
+         (--save-camera), or name a camera or file (--camera)"
     );
     let stands_in = StandInRecord {
         camera: of.to_owned(),
@@ -105,8 +105,8 @@ fn warning(of: &str, stand_in: &StandIn) -> String {
     let StandIn { name, why, .. } = stand_in;
     let (why, percent) = (why.words(), 100.0 * why.expected_error());
     format!(
-        "warning: nobody measured the curves of {of}: {name} stands in for it ({why}), \
-         whose curves are off by {percent:.1} % of green's peak in the mean; \
+        "warning: the sensitivities of {of} have not been measured: {name} stands in ({why}), \
+         with a mean error of {percent:.1} % of green's peak; \
          photograph a colour chart (--save-camera), or name a camera or file (--camera)"
     )
 }

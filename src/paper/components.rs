@@ -50,14 +50,13 @@ impl FlatSheet {
             Exposure::Known(exposure) => Some(exposure),
             Exposure::Sum => None,
             Exposure::Free | Exposure::Expected(_) => {
-                let problem = "unknown, and a flat sheet does not tell it; give --exposure X or sum";
+                let problem = "unknown, and a flat sheet does not reveal it; give --exposure X or sum";
                 return Err(Error::field("exposure", problem));
             }
         };
         let usable = usable_facets(model, measured)?;
         let view = model.without_bounces(&usable).ok_or_else(|| {
-            let problem =
-                "the sheet is folded, and this method knows no bounces; use vkernel --angle-deg 180";
+            let problem = "the sheet is folded, but this method ignores bounces; use vkernel --angle-deg 180";
             Error::field("geometry.angle_deg", problem)
         })?;
         let facets: Vec<_> = usable.iter().filter_map(|facet| measured.rgb.facet(*facet)).collect();
@@ -101,7 +100,7 @@ impl Components {
         if order.len() < count || count == 0 {
             let has = order.len();
             return Err(Error::Numeric(format!(
-                "{count} components asked for, but set, camera and lights have {has}; \
+                "{count} components requested, but set, camera and lights have {has}; \
                  give --components {has} or fewer"
             )));
         }
@@ -111,7 +110,7 @@ impl Components {
             components.neg_mut();
         }
         if components.column(0).min() <= 0.0 {
-            let problem = "all spectra of the basis are zero at one wavelength; leave it out or give others";
+            let problem = "all spectra of the basis are zero at a wavelength; leave it out or change --basis";
             return Err(Error::Numeric(problem.to_owned()));
         }
         Ok(Self(components))
@@ -186,7 +185,7 @@ impl Space {
         let factor = factor.filter(known).ok_or_else(|| {
             let count = basis.ncols();
             Error::Numeric(format!(
-                "{count} components are more than the values tell; give fewer or --smoothness"
+                "{count} components are more than the values determine; give fewer or --smoothness"
             ))
         })?;
         let values = DVector::from_column_slice(&sheet.values) / exposure;

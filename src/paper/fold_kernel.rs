@@ -60,7 +60,7 @@ impl FoldKernel {
         let FacetGrid { rows, cols } = fold.facets();
         let pairs = if fold.is_symmetric() { rows * (rows + 1) / 2 } else { rows * rows };
         let bytes = pairs * cols * size_of::<f64>();
-        room::ask(bytes as u64, "form factors", "take fewer facets")
+        room::ask(bytes as u64, "form factors", "use fewer facets")
     }
 
     /// The same from a function of the two rows' ranges of distance from the crease, which takes a

@@ -26,7 +26,7 @@ pub fn respond(method: Method, fold: &Fold, mesh: Mesh, tolerance: f64) -> Resul
         Mesh::Patches(patches) => respond_patches(method, fold, patches, tolerance),
         Mesh::Cells(cells) => Err(Error::usage(
             "--mesh",
-            format!("{cells} cells are for facets of a shape"),
+            format!("a number of cells applies only to shapes, and {cells} was given"),
             "give patches such as 40x40, facets, or auto",
         )),
     }

@@ -115,8 +115,9 @@ impl<'a> Waveband<'a> {
         let [b0, b1] = [0, 1].map(|panel| self.roots[panel].component_mul(&direct[panel]));
         let right = b0 + self.hand_on(0, &b1);
         let product = |x: &DVector<f64>| x - self.hand_on(0, &self.hand_on(1, x));
-        let y0 = conjugate_gradients(product, right, TOLERANCE)
-            .ok_or_else(|| Error::Numeric("the bounces do not end: the fold is too narrow".to_owned()))?;
+        let y0 = conjugate_gradients(product, right, TOLERANCE).ok_or_else(|| {
+            Error::Numeric("the bounces do not converge: the fold is too narrow".to_owned())
+        })?;
         let y1 = b1 + self.hand_on(1, &y0);
         let of_facets = [(0, y0), (1, y1)].map(|(panel, y)| {
             self.operator.facet_means(panel, self.roots[panel].component_mul(&y).as_slice())
@@ -181,6 +182,6 @@ fn surface_exitance(
         x - received.component_mul(&roots)
     };
     let y = conjugate_gradients(product, roots.component_mul(direct), TOLERANCE)
-        .ok_or_else(|| Error::Numeric("the bounces do not end: the surface is closed".to_owned()))?;
+        .ok_or_else(|| Error::Numeric("the bounces do not converge: the surface is closed".to_owned()))?;
     Ok(DVector::from_vec(exchange.facet_means(roots.component_mul(&y).as_slice())))
 }

@@ -119,7 +119,7 @@ fn draw_light<B: DrawingBackend>(
     let line = points(wavelengths_nm, power.iter().map(|power| scale * power));
     chart.draw_series(LineSeries::new(line, LIGHT.stroke_width(1)))?;
     if let Some(first_nm) = wavelengths_nm.first() {
-        let words = format!("  grey: the expected light, most probably {name}, in no unit");
+        let words = format!("  grey: the estimated light, most probably {name}, in arbitrary units");
         let style = (FONT, 13).into_font().color(&LIGHT);
         chart.draw_series(std::iter::once(Text::new(words, (*first_nm, top), style)))?;
     }

@@ -37,8 +37,7 @@ impl FacetLight {
 /// # Errors
 /// [`crate::Error::File`] if it cannot be written.
 pub fn draw(path: &Path, light: &FacetLight) -> Result<()> {
-    let handed =
-        light.maps("light that facets hand to each other", &light.row_sums, "row sums of the kernel");
+    let handed = light.maps("light exchanged between facets", &light.row_sums, "row sums of the kernel");
     let direct = light.maps("direct light", &light.irradiance, "irradiance, facing the sun = 1");
     save(path, &Above(handed, Some(direct)))
 }

@@ -22,8 +22,8 @@ pub(super) fn section(gallery: &Gallery, summary: &Summary) -> Result<Option<Htm
     }
     if summary.scored() > 1 {
         let batch = gallery.batch(summary)?;
-        let words = "histograms of the scores, and the samples of the worst first score";
-        let caption = "How the scores are spread, and the worst samples by the first of them.";
+        let words = "histograms of the scores, and the samples that score worst";
+        let caption = "Distribution of the scores, and the worst samples by the first score.";
         parts.push(Html::figure(Html::drawing(&batch.svg()?, words), caption));
         let row = |(name, value): &(String, f64)| vec![name.as_str().into(), digits(*value, 0.0).into()];
         let score = batch.scores.first().map_or("", |(name, ..)| name.as_str());
@@ -42,7 +42,7 @@ fn counts(gallery: &Gallery, summary: &Summary) -> Html {
     let mut text =
         format!("{} samples, {} scored, {failed} without a result.", summary.samples(), summary.scored());
     if gallery.seen() > SECTIONS_MAX {
-        text.push_str(&format!(" Shown below are the worst {SECTIONS_MAX}."));
+        text.push_str(&format!(" The worst {SECTIONS_MAX} are shown below."));
     }
     Html::element("p", &[], text)
 }

@@ -29,8 +29,8 @@ pub(super) fn check(gallery: &Gallery, view: &View) -> Result<()> {
     match view.overlays.iter().find(|path| !of_a_sample(path)) {
         Some(path) if are_all_known && !is_the_only(gallery, view) => Err(Error::usage(
             "--overlay",
-            format!("no sample is called as {} is", path.display()),
-            "give pictures the names of their samples, or write {} for these, as in overlay-{}.png",
+            format!("no sample has the name of {}", path.display()),
+            "name pictures after their samples, or put {} in the name, as in overlay-{}.png",
         )),
         _ => Ok(()),
     }
@@ -79,6 +79,6 @@ fn picture(path: &Path, id: &str) -> Result<Html> {
     let attributes = attributes.each_ref().map(|(name, value)| (*name, value.as_str()));
     let colours = small.caption.map(|caption| format!(" Colours: {caption}.")).unwrap_or_default();
     let caption =
-        format!("What was measured: panels and facets, and red the pixels that were left out.{colours}");
+        format!("What was measured: panels and facets; pixels that were left out are red.{colours}");
     Ok(Html::figure(Html::empty("img", &attributes), &caption))
 }

@@ -44,9 +44,9 @@ pub(super) fn unstated(sample: &Sample, scene: &Scene) -> Result<Option<Html>> {
     rows.extend(camera(sample, scene)?);
     rows.extend(light(sample, scene)?);
     rows.extend(day(sample)?);
-    let headings = ["what", "taken to be", "how sure"];
+    let headings = ["what", "value used", "confidence or source"];
     let rows: Vec<_> = rows.into_iter().map(|row| row.map(Html::from).into()).collect();
-    Ok((!rows.is_empty()).then(|| Html::table("Found or assumed, not stated", &headings, rows)))
+    Ok((!rows.is_empty()).then(|| Html::table("Detected or assumed, not stated", &headings, rows)))
 }
 
 /// The angle, if derived from a photograph's corners.
@@ -55,7 +55,7 @@ fn angle(scene: &Scene) -> Result<Option<[String; 3]>> {
         Ok(scene.fields.text_at(&format!("geometry.{field}"))?.and_then(|text| text.parse().ok()))
     };
     let (Some(angle), Some(sd)) = (number("angle_deg")?, number("angle_sd_deg")?) else { return Ok(None) };
-    let sure = "standard deviation, by the corners' places".to_owned();
+    let sure = "standard deviation from the corners' positions".to_owned();
     Ok(Some(["angle between the panels, degrees".to_owned(), with_sd(angle, sd), sure]))
 }
 
@@ -68,7 +68,7 @@ fn panels(scene: &Scene) -> Result<Option<[String; 3]>> {
     let row = |(_, sides): (String, String)| {
         let sides: Vec<_> = sides.split(", ").map(rounded).collect();
         let what = "sides of a panel, along the crease x away from it".to_owned();
-        [what, sides.join(" x "), "the likeliest by the corners".to_owned()]
+        [what, sides.join(" x "), "most probable given the corners".to_owned()]
     };
     Ok(panel.map(row))
 }
@@ -82,7 +82,7 @@ fn camera(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
     let stand_in = scene.camera()?.stands_in;
     let sure = match stand_in {
         Some(one) => format!(
-            "stands in for {}: {}; its sensitivities are off by {} of their peak, root mean square",
+            "stands in for {}: {}; root mean square error of the sensitivities: {} of their peak",
             one.camera,
             one.why,
             digits(one.sensitivity_error, 0.0)
@@ -115,7 +115,7 @@ fn light(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
         (true, ..) => {
             "daylight is assumed: the photograph does not say where and when it was taken".to_owned()
         }
-        (false, ..) => "by the place and time in the photograph".to_owned(),
+        (false, ..) => "computed from place and time in the photograph".to_owned(),
     };
     Ok(Some(["light".to_owned(), name, sure]))
 }

@@ -34,7 +34,7 @@ pub(super) fn section(number: usize, shown: &Shown, gallery: &Gallery, view: &Vi
     parts.extend(estimate.as_ref().and_then(fitted));
     parts.extend(estimate.as_ref().map(|estimate| numbers(estimate, sample)).transpose()?);
     if let Some(residuals) = sheet.as_ref().map(residuals).transpose()?.flatten() {
-        parts.push(folded("What the estimate leaves of the facets", residuals));
+        parts.push(folded("Residuals of the facets", residuals));
     }
     let rest: Vec<Html> = rest(sample);
     if !rest.is_empty() {
@@ -69,14 +69,14 @@ fn with_level(verdict: &str) -> Html {
 /// Deviations of the photograph from the ideal.
 fn findings(estimate: &EstimateRecord) -> Option<Html> {
     let rows = estimate.findings.iter().map(|one| vec![one.what.as_str().into(), one.remedy.as_str().into()]);
-    let headings = ["not ideal about the photograph, and allowed for", "what to do"];
+    let headings = ["not ideal, and allowed for in the estimate", "what to do"];
     (!estimate.findings.is_empty()).then(|| Html::table("What the facets show", &headings, rows))
 }
 
 fn spectrum(sheet: &Sheet, view: &View) -> Result<Html> {
     let caption = format!(
-        "Estimated reflectance with a band of two standard deviations to either side. \
-         Colours: under {} for the {} observer.",
+        "Estimated reflectance with a band of two standard deviations on either side. \
+         Colours under {} for the {} observer.",
         view.illuminant.name(),
         colours::observer(view.observer)
     );
@@ -87,7 +87,7 @@ fn spectrum(sheet: &Sheet, view: &View) -> Result<Html> {
 fn residuals(sheet: &Sheet) -> Result<Option<Html>> {
     let Some(svg) = sheet.residuals_svg()? else { return Ok(None) };
     let words = format!("residuals of the facets of {}", sheet.curve.name);
-    Ok(Some(Html::figure(Html::drawing(&svg, &words), "Patternless where the model is right.")))
+    Ok(Some(Html::figure(Html::drawing(&svg, &words), "Without a pattern if the model is right.")))
 }
 
 /// The candidates for the light, if not stated.
@@ -95,7 +95,7 @@ fn light(estimate: &EstimateRecord) -> Option<Html> {
     let light = estimate.light.as_ref()?;
     let row = |one: &CandidateRecord| vec![one.name.as_str().into(), digits(one.probability, 0.0).into()];
     let rows = light.candidates.iter().map(row);
-    Some(Html::table("The light, as the facets have it", &["light", "probability"], rows))
+    Some(Html::table("The light, estimated from the facets", &["light", "probability"], rows))
 }
 
 /// The fitted unknowns, each with its standard deviation, in its unit.
@@ -103,7 +103,7 @@ fn fitted(estimate: &EstimateRecord) -> Option<Html> {
     let row = |one: (&Unknown, &FittedRecord)| {
         let (unknown, FittedRecord { value, sd, supported }) = one;
         let unit = unknown.unit.map(|unit| format!(", {unit}")).unwrap_or_default();
-        let by = if *supported { "the picture" } else { "its prior: the picture does not show it" };
+        let by = if *supported { "the picture" } else { "its prior, as the picture does not show it" };
         vec![format!("{}{unit}", unknown.description).into(), with_sd(*value, *sd).into(), by.into()]
     };
     let rows: Vec<_> = estimate.fits().map(row).collect();

@@ -39,7 +39,7 @@ fn section(scene: &Scene) -> Result<Html> {
         parts.push(Html::element(
             "p",
             &[],
-            "These commands make records and page again; they can be pasted into a shell:",
+            "These commands reproduce the records and this page when pasted into a shell:",
         ));
         parts.push(Html::element("pre", &[], Html::element("code", &[], Html::lines(&pipeline(&history)))));
         parts.push(folded("Versions of the tools", Html::table("Versions", &["tool", "version"], versions)));

@@ -100,14 +100,17 @@ impl Response {
         for (source, set) in sets.iter().enumerate() {
             set.check()?;
             if set.residues.nrows() != facets * panels {
-                return Err(Error::field("response.residues", "needs as many facets on either panel"));
+                return Err(Error::field(
+                    "response.residues",
+                    "needs equal numbers of facets on both panels",
+                ));
             }
             // Before any bounce, uniform light is uniform.
             let lit = set.residues.rows(source * facets, facets);
             if !lit.column_sum().iter().all(|sum| (sum - 1.0).abs() < 1e-3) {
                 return Err(Error::field(
                     "response.residues",
-                    "those of a facet do not add up to 1: make the scene again",
+                    "those of a facet do not add up to 1; make the scene again with vkernel",
                 ));
             }
         }

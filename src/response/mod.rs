@@ -42,7 +42,8 @@ impl ModeSet {
         if self.poles.iter().all(|pole| pole.abs() < 1.0) {
             Ok(())
         } else {
-            Err(Error::field("response.poles", "a pole outside (-1, 1): the bounces would not end"))
+            let problem = "a pole outside (-1, 1): bounces would not end; make the scene again with vkernel";
+            Err(Error::field("response.poles", problem))
         }
     }
 

@@ -70,7 +70,7 @@ fn read_areas(path: &Path, facets: usize) -> Result<Vec<f64>> {
 fn read_sources(path: &Path, facets: usize) -> Result<Vec<Vec<f64>>> {
     let rows = read_rows(path, facets)?;
     if let Some(value) = rows.iter().find(|value| !(0.0..1e30).contains(*value)) {
-        return Err(array(path, format!("{value} is no irradiance; give numbers from 0")));
+        return Err(array(path, format!("{value} is not an irradiance; give numbers from 0")));
     }
     let sources: Vec<Vec<f64>> = rows.outer_iter().map(|row| row.to_vec()).collect();
     match sources.iter().position(|source| !source.iter().any(|value| *value > 0.0)) {

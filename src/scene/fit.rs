@@ -34,8 +34,8 @@ impl Setting<'_> {
             match self {
                 Self::Fold(fold) => SceneModel::of_fold(&fold.in_light(tolerance)?, fit)?,
                 Self::Surface(surface) if surface.scene.fold_if_one()?.is_some() => {
-                    let problem = "in light that is not the sun's and a uniform sky's nothing but \
-                                   the exposure is fitted; leave --fit out";
+                    let problem = "in light other than a sun and a uniform sky only the exposure \
+                                   can be fitted; leave --fit out";
                     return Err(Error::field("light", problem));
                 }
                 Self::Surface(_) => return Err(needs_fold()),

@@ -89,7 +89,7 @@ impl FoldSetting {
         let missing = || {
             Error::field(
                 "camera",
-                "it, or the light, is missing; give --camera and --illuminant to vforward or vextract",
+                "camera or light is missing; give --camera and --illuminant to vforward or vextract",
             )
         };
         self.optics.as_ref().ok_or_else(missing)
@@ -146,7 +146,7 @@ impl FoldSetting {
 /// The card in place of a panel, if there is one.
 fn card(scene: &Scene) -> Result<Option<Card>> {
     if !scene.materials()?.is_empty() {
-        let problem = "a fold has panels and no groups; say which is known with --panel-reflectance P=SPEC";
+        let problem = "a fold has panels, not groups; state known ones with --panel-reflectance P=SPEC";
         return Err(Error::field("materials", problem));
     }
     let card = scene.reference_panel()?;

@@ -66,14 +66,14 @@ impl FoldedSheet {
                 return Ok(albedo);
             }
             let problem = format!(
-                "no sheet with this surface and body reflects {reflectance} at 45:0 ({:.3} to {:.3})",
+                "no sheet with this surface reflects {reflectance} at 45°:0°, but {:.3} to {:.3}",
                 offset.max(0.0),
                 slope + offset
             );
             Err(Error::usage(
                 "--reflectance",
                 problem,
-                "give another, or a smaller specular weight, roughness or sheen",
+                "stay in that range, or reduce --specular-weight, --body-roughness-deg or --sheen",
             ))
         };
         reflectance.iter().map(of).collect()

@@ -35,8 +35,8 @@ impl<'a> MarkedPanels<'a> {
     /// [`Error::Usage`] if no panel is marked, if one is not in the scene, or if two are in the same place.
     pub fn new(scene: &'a BTreeMap<usize, Panel>, marked: &BTreeMap<usize, [Point; 4]>) -> Result<Self> {
         if marked.is_empty() {
-            let problem = "there is no panel in it, such as 'panel0'";
-            return Err(Error::usage("--regions", problem, "add it or give --panel0"));
+            let problem = "it has no panel, such as 'panel0'";
+            return Err(Error::usage("--regions", problem, "add one, or give --panel0"));
         }
         let of_scene = |number: &usize| scene.get(number).ok_or_else(|| unknown(*number, scene));
         let panels: Vec<&Panel> = marked.keys().map(of_scene).collect::<Result<_>>()?;
@@ -136,8 +136,8 @@ fn apart(marked: &[Marked]) -> Result<()> {
     };
     for (n, b) in outlines.iter().enumerate() {
         if let Some(m) = outlines[..n].iter().position(|a| holds(a, b) && holds(b, a)) {
-            let problem = format!("panels {} and {} lie over each other", marked[m].panel, marked[n].panel);
-            return Err(Error::usage("--panel", problem, "panels meet at a crease and nowhere else"));
+            let problem = format!("panels {} and {} overlap", marked[m].panel, marked[n].panel);
+            return Err(Error::usage("--panel", problem, "mark panels that meet only at a crease"));
         }
     }
     Ok(())

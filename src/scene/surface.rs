@@ -110,7 +110,7 @@ impl<'a> SurfaceSetting<'a> {
     /// The model for these responses to the sources.
     fn model_of(&self, cameras: &[CameraResponse]) -> Result<FacetModel> {
         if self.scene.fields.has("reference_panel") {
-            let problem = "panels are those of a fold; say which group is known with --material GROUP=SPEC";
+            let problem = "only folds have panels; state known groups with --material GROUP=SPEC";
             return Err(Error::field("reference_panel", problem));
         }
         let materials = self.scene.materials()?;
@@ -147,7 +147,7 @@ fn part_of_facets(shape: &Shape, materials: &[Material]) -> Result<Vec<usize>> {
         let mut groups = shape.groups().iter().filter(|group| group.name == material.group).peekable();
         if groups.peek().is_none() {
             let names: Vec<_> = shape.groups().iter().map(|group| group.name.as_str()).collect();
-            let problem = format!("no group is called '{}'; there are {}", material.group, names.join(", "));
+            let problem = format!("no group is called '{}'; groups are {}", material.group, names.join(", "));
             return Err(Error::field("materials", problem));
         }
         groups.for_each(|group| part_of[group.facets.clone()].fill(n + 1));
@@ -155,6 +155,6 @@ fn part_of_facets(shape: &Shape, materials: &[Material]) -> Result<Vec<usize>> {
     if part_of.contains(&0) {
         Ok(part_of)
     } else {
-        Err(Error::field("materials", "all groups are known: leave out the one that is the sheet"))
+        Err(Error::field("materials", "all groups are known; leave out the one that is the sheet"))
     }
 }

@@ -23,8 +23,8 @@ pub(super) fn temperature_k(name: &str) -> Option<f64> {
 pub(super) fn black_body(temperature_k: f64) -> Result<Spectrum> {
     let name = format!("{temperature_k}K");
     if !TEMPERATURES_K.contains(&temperature_k) {
-        let problem = "black bodies are given for 1000..25000 K";
-        return Err(bad(&name, problem, "choose a temperature within it"));
+        let problem = "black bodies are computed for 1000..25000 K";
+        return Err(bad(&name, problem, "choose a temperature in that range"));
     }
     let power = |nm: f64| nm.powi(-5) / (C2_NM_K / (nm * temperature_k)).exp_m1();
     let grid = WavelengthGrid::uniform(300.0, 830.0, 1.0)?;

@@ -83,7 +83,7 @@ impl MeasuredCamera {
             if self.aliases.is_empty() { String::new() } else { format!(" ({})", list(self.aliases)) };
         let others = match self.same_sensor {
             "" => String::new(),
-            same => format!("; for {} as well, whose sensor is the same", list(same)),
+            same => format!("; also for {}, with the same sensor", list(same)),
         };
         let Self { maker, model, measured_by, .. } = self;
         format!("{maker} {model}{aliases}, 380..780 nm by 5 (rawtoaces-data: {measured_by}){others}")

@@ -48,7 +48,7 @@ pub(super) fn in_order(path: &str, columns: &[Spectrum]) -> Result<(Vec<Spectrum
                 notes.push(format!("G is the mean of {} and {}", a.name(), b.name()));
             }
             ref several => {
-                let problem = format!("the columns {} are of one colour", list(several));
+                let problem = format!("the columns {} have the same colour", list(several));
                 return Err(bad(path, problem, format!("{NAME_THEM}, G1 and G2 if there are two greens")));
             }
         }
@@ -64,7 +64,7 @@ pub(super) fn in_order(path: &str, columns: &[Spectrum]) -> Result<(Vec<Spectrum
             channels = columns.to_vec();
             if all.len() == COLOURS.len() {
                 notes.push(format!(
-                    "channels {} taken for R, G, B by their places, as no name says a colour",
+                    "channels {} taken as R, G, B by position, as no name gives a colour",
                     list(&all)
                 ));
             }
@@ -76,7 +76,7 @@ pub(super) fn in_order(path: &str, columns: &[Spectrum]) -> Result<(Vec<Spectrum
     }
     if have_one_peak(channels.iter().map(Spectrum::values)) {
         notes.push(
-            "all channels have the same peak, as no camera's do: scaled one by one, \
+            "all channels have the same peak, unlike any camera's: scaled one by one, \
              they have lost their ratios"
                 .to_owned(),
         );
@@ -128,7 +128,7 @@ mod tests {
             (&["R", "IR", "G", "B"], &["R", "G", "B"], Some("R, G and B taken by name, IR left out")),
             (&["R", "G1", "G2", "B"], &["R", "G", "B"], Some("G is the mean of G1 and G2")),
             (&["Gr", "Gb", "B", "R"], &["R", "G", "B"], Some("G is the mean of Gr and Gb")),
-            (&["x", "y", "z"], &["x", "y", "z"], Some("x, y, z taken for R, G, B by their places")),
+            (&["x", "y", "z"], &["x", "y", "z"], Some("x, y, z taken as R, G, B by position")),
             (&["R", "G"], &["R", "G"], None),
             (&["Y"], &["Y"], None),
         ] {

@@ -82,14 +82,14 @@ impl Donaldson {
         let fluorescence = part(|shift_nm| shift_nm > REFLECTED_WITHIN_NM);
         let below = part(|shift_nm| shift_nm < -REFLECTED_WITHIN_NM).max();
         if below > NO_NOISE && below > fluorescence.max() {
-            let problem = "most light that fluoresces has shorter wavelengths than what excites it";
+            let problem = "most emission has shorter wavelengths than its excitation";
             return Err(bad(name, problem, "write emission in rows, excitation in columns"));
         }
         let reflectance: Vec<f64> = reflected.row_iter().map(|row| row.sum()).collect();
         if let Some(row) = reflectance.iter().position(|reflectance| *reflectance > 1.0) {
             let problem =
-                format!("at {} nm {} of the light is reflected", emission_nm[row], reflectance[row]);
-            return Err(bad(name, problem, "give radiance factors of bands, in fractions of white's"));
+                format!("at {} nm the reflectance is {}, above 1", emission_nm[row], reflectance[row]);
+            return Err(bad(name, problem, "give radiance factors per band, as fractions of white's"));
         }
         let spectrum = |values: Vec<f64>| {
             Spectrum::new(name, emission_nm.to_vec(), values)
@@ -116,7 +116,7 @@ impl Donaldson {
         let wavelength_nm = |column: &Spectrum| {
             column.name().parse::<f64>().map_err(|_| {
                 let problem =
-                    format!("column '{}' is not called by a wavelength of excitation", column.name());
+                    format!("the name of column '{}' is not an excitation wavelength", column.name());
                 bad(path, problem, "write it as a number, in nm")
             })
         };

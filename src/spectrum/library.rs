@@ -94,7 +94,7 @@ const REFLECTANCE_SETS: [ReflectanceSet; 4] = [
 pub fn list(what: What) -> Result<Vec<(String, String)>> {
     let mut rows = listed(what)?;
     for file in own::files()? {
-        let hidden = if find(what, &file.name)?.is_some() { "; the built-in one has the name" } else { "" };
+        let hidden = if find(what, &file.name)?.is_some() { "; its name means a built-in one" } else { "" };
         let description = format!("own, {} in {}{hidden}", file.file_name(), own::VARIABLE);
         rows.push((file.name, description));
     }
@@ -130,10 +130,10 @@ fn listed(what: What) -> Result<Vec<(String, String)>> {
         What::Illuminants => {
             let cie = cie_illuminants()?;
             let daylight = ("daylight:CCT", "CIE daylight of 4000..25000 K, such as daylight:5500");
-            let sun = "direct sun of a cloudless day, so far from the zenith (sun:40deg) or at a place \
+            let sun = "direct sun of a cloudless day, at an angle from the zenith (sun:40deg) or at a place \
                        and time: sun:48.1,11.6,2026-06-21T14:30+02:00";
             let sky =
-                "the sky's light then, on level ground; --sky-illuminant sky is that of --illuminant sun:...";
+                "skylight with that sun, on level ground; --sky-illuminant sky: that of --illuminant sun:...";
             let black_body = ("2856K", "black body of 1000..25000 K, such as 3200K for a lamp");
             let computed = [daylight, black_body, ("sun:WHERE", sun), ("sky:WHERE", sky)];
             rows(cie.iter().map(|cie| (cie.name(), description(cie.name()))).chain(computed))

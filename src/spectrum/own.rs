@@ -70,7 +70,7 @@ pub(super) fn find<'a>(
             (Some(file), None) => return Ok(Some((file, member))),
             (Some(one), Some(other)) => {
                 let problem =
-                    format!("{} and {} in {VARIABLE} have the name", one.file_name(), other.file_name());
+                    format!("{} and {} in {VARIABLE} share this name", one.file_name(), other.file_name());
                 let remedy = "rename one, or give the path".to_owned();
                 return Err(Error::Spectrum { name: stem.to_owned(), problem, remedy });
             }

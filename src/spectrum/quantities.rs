@@ -48,7 +48,7 @@ pub(super) fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
     let remedy = match value {
         ..0.0 => "set negative noise to 0",
         2.0.. => "rescale it to fractions or percent",
-        _ => "leave out fluorescent samples, rescale wrongly scaled ones",
+        _ => "leave out fluorescent samples, or rescale wrongly scaled ones",
     };
     Err(bad(spectrum.name(), format!("reflectance {value} is outside 0..1"), remedy))
 }
@@ -57,7 +57,7 @@ pub(super) fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
 pub(super) fn check_radiance_factor(spectrum: &Spectrum) -> Result<()> {
     match spectrum.values().iter().find(|value| **value < 0.0) {
         Some(value) => {
-            let problem = format!("{value} is below 0, where a part of white's light is wanted");
+            let problem = format!("{value} is below 0, but a fraction of white's light is needed");
             Err(bad(spectrum.name(), problem, "set negative noise to 0"))
         }
         None => Ok(()),

@@ -127,7 +127,7 @@ impl Specs {
         let mut columns = self.find(What::Illuminants, spec)?;
         let illuminant = columns.swap_remove(0);
         if !columns.is_empty() {
-            let problem = format!("{} columns, where one illuminant is wanted", columns.len() + 1);
+            let problem = format!("{} columns, but one illuminant is needed", columns.len() + 1);
             return Err(bad(spec, problem, format!("name one of them, such as {spec}:COLUMN")));
         }
         check_power(&illuminant, 0.0)?;
@@ -202,7 +202,7 @@ fn path_and_member(spec: &str) -> (&str, Option<&str>) {
 /// Adds a note that a built-in name hides a file.
 fn noted_as_built_in(name: &str, file: &OwnFile, spectra: Vec<Spectrum>) -> Vec<Spectrum> {
     let (hidden, variable) = (file.file_name(), own::VARIABLE);
-    let note = Arc::from(format!("{name}: the built-in one; {hidden} of {variable} is reached by its path"));
+    let note = Arc::from(format!("{name}: the built-in one is used; give a path for {hidden} of {variable}"));
     spectra.into_iter().map(|spectrum| spectrum.noted(Some(&note))).collect()
 }
 
@@ -260,9 +260,7 @@ mod tests {
             let blue = reflectances(&format!("{path}:blue")).unwrap();
             assert_eq!((blue.len(), &blue[0]), (1, &both[1]));
             assert_eq!(camera(path).unwrap().channels[0].name(), "red");
-            assert!(
-                message(illuminant(path)).contains("2 columns, where one illuminant is wanted; name one")
-            );
+            assert!(message(illuminant(path)).contains("2 columns, but one illuminant is needed; name one"));
             assert!(message(reflectances(&format!("{path}:pink"))).contains("the columns are red, blue"));
         });
         with_csv("nm,r\n400,0.1\n700,0.3\n", |path| {
@@ -310,7 +308,7 @@ mod tests {
         assert_eq!(
             message(illuminant("D56")),
             "no illuminant is called 'D56'; did you mean D50 or D55 or D60? \
-             --list illuminants shows what there is, a file needs its ending, such as .csv"
+             --list illuminants shows all names, and a file needs its ending, such as .csv"
         );
         assert!(message(reflectances("cc24:redd")).contains("did you mean cc24:red "));
         assert!(message(camera("leica")).starts_with("no camera is called 'leica'; --list cameras shows"));

@@ -48,22 +48,22 @@ impl Sun {
     pub fn parse(text: &str) -> Result<Self> {
         if let Some(degrees) = text.strip_suffix("deg") {
             let degrees = degrees.trim().parse();
-            return degrees.map_or_else(|_| Err(wrong(text, "that is no angle", FORMS)), Self::at_zenith_deg);
+            return degrees.map_or_else(|_| Err(wrong(text, "not an angle", FORMS)), Self::at_zenith_deg);
         }
         let mut parts = text.splitn(3, ',');
         let (Some(latitude), Some(longitude), Some(time)) = (parts.next(), parts.next(), parts.next()) else {
-            return Err(wrong(text, "that is no place and time", FORMS));
+            return Err(wrong(text, "not a place and time", FORMS));
         };
         let degrees = |part: &str, most: f64| part.trim().parse().ok().filter(|deg: &f64| deg.abs() <= most);
         let (Some(latitude), Some(longitude)) = (degrees(latitude, 90.0), degrees(longitude, 180.0)) else {
-            let problem = format!("'{latitude},{longitude}' is no place");
+            let problem = format!("'{latitude},{longitude}' is not a place");
             let remedy = "give degrees north, -90 to 90, and east, -180 to 180; south and west are negative";
             return Err(wrong(text, problem, remedy));
         };
         let moment = Moment::parse(time.trim()).ok_or_else(|| {
             let remedy = "write date, time and its difference from UTC, as in 2026-06-21T14:30+02:00 \
                           or 2026-06-21T12:30Z";
-            wrong(text, format!("'{time}' is no time"), remedy)
+            wrong(text, format!("'{time}' is not a time"), remedy)
         })?;
         let failed = |e: solar_positioning::Error| wrong(text, e.to_string(), FORMS);
         let seen = SolarPositions::new()
@@ -77,7 +77,7 @@ impl Sun {
         let sun = Self { zenith_deg: seen.zenith_angle(), day: Some(moment.day_of_year()) };
         sun.above_horizon(
             &format!("sun:{text}"),
-            "check the time and its difference from UTC, and the signs of the place",
+            "check the time, its difference from UTC, and the signs of latitude and longitude",
         )
     }
 
@@ -99,7 +99,7 @@ impl Sun {
         }
         let problem = format!("the sun is below the horizon, {:.1}° from the zenith", self.zenith_deg);
         let problem =
-            if self.zenith_deg >= 90.0 { problem } else { format!("{}° is no angle", self.zenith_deg) };
+            if self.zenith_deg >= 90.0 { problem } else { format!("{}° is not an angle", self.zenith_deg) };
         Err(Error::Spectrum { name: name.to_owned(), problem, remedy: remedy.to_owned() })
     }
 
@@ -227,7 +227,7 @@ mod tests {
             "2026-06-21T12:60Z",
             "2026-06-21T12:00:nanZ",
         ] {
-            assert!(message(&format!("48,11,{time}")).contains("is no time; write date"), "{time}");
+            assert!(message(&format!("48,11,{time}")).contains("is not a time; write date"), "{time}");
         }
     }
 
@@ -235,15 +235,15 @@ mod tests {
     fn what_cannot_be_is_refused() {
         for place in ["91,0", "0,181", "x,0", "nan,0", "Paris,France"] {
             assert!(
-                message(&format!("{place},2026-06-21T12:00Z")).contains("is no place; give degrees"),
+                message(&format!("{place},2026-06-21T12:00Z")).contains("is not a place; give degrees"),
                 "{place}"
             );
         }
-        assert!(message("Paris").contains("no place and time; write sun:40deg"));
-        assert!(message("xdeg").contains("no angle"));
+        assert!(message("Paris").contains("not a place and time; write sun:40deg"));
+        assert!(message("xdeg").contains("not an angle"));
         assert!(message("95deg").contains("below the horizon"));
-        assert!(message("-5deg").contains("no angle"));
-        assert!(message("nandeg").contains("no angle"));
+        assert!(message("-5deg").contains("not an angle"));
+        assert!(message("nandeg").contains("not an angle"));
         assert!(message("48.1,11.6,2026-06-21T23:30+02:00").contains("below the horizon"));
     }
 

@@ -48,5 +48,5 @@ pub fn read_development(path: &str) -> Result<Development> {
         "{\"white_balance_gains\": [r, g, b], \"camera_to_linear_srgb\": [[..], [..], [..]]}";
     let record: DevelopmentRecord = json_file::read(path, EXAMPLE)?;
     Development::new(record.white_balance_gains, record.camera_to_linear_srgb)
-        .map_err(|error| Error::Numeric(format!("{path}: {error}; give what the camera did")))
+        .map_err(|error| Error::Numeric(format!("{path}: {error}; give the camera's gains and matrix")))
 }

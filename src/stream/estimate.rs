@@ -40,7 +40,7 @@ pub struct EstimateRecord {
     /// Reflectance, one per wavelength.
     #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
-    /// Exposure, as known or as found.
+    /// Exposure, known or fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exposure: Option<f64>,
     /// Root mean square of the residuals in units of their expected size: near 1 where the model is good.
@@ -80,23 +80,23 @@ pub struct EstimateRecord {
     /// Light from behind that comes through the sheet, if some probably does.
     #[serde(default, skip_serializing_if = "Option::is_none", skip_deserializing)]
     light_through: Option<LightThroughRecord>,
-    /// What was fitted along.
+    /// What was fitted along with the reflectance.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<Quantities<FittedRecord>>,
     /// The kind of day on which a photograph in daylight was taken.
     #[serde(default, skip_serializing_if = "Option::is_none", skip_deserializing)]
     day: Option<DayRecord>,
-    /// The light, where nobody stated it.
+    /// The light, if it was not stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub light: Option<InferredLightRecord>,
     /// Ids of the photographs of one sheet from which spectrum and error bars were estimated together, this
     /// sample's among them; absent of a sample that was estimated alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joined: Vec<String>,
-    /// What of a photograph is not ideal, what the facets are surest of first. The estimate allows for it.
+    /// What is not ideal about the photograph, the most certain first. The estimate allows for it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<FindingRecord>,
-    /// Whether it can be trusted; absent from a method that does not know how far off it is.
+    /// Whether it can be trusted; absent if the method has no error bars.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<VerdictRecord>,
     /// What was not tried, or not determined by the facets of a photograph.
@@ -106,7 +106,7 @@ pub struct EstimateRecord {
     /// `vestimate --save covariance=FILE.npy`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Vec<Vec<f64>>>,
-    /// What facets were taken to be worth, by a method that weighs them.
+    /// Assumed noise of the facets, by a method that weighs them.
     #[serde(skip_serializing_if = "Option::is_none")]
     noise: Option<NoiseRecord>,
 }
@@ -142,7 +142,7 @@ enum TerminationRecord {
         /// What is left of them.
         gradient_norm: f64,
     },
-    /// The limit on iterations came first.
+    /// The limit on iterations was reached first.
     #[serde(rename = "iteration limit")]
     IterationLimit,
     /// Rounding is reached.
@@ -161,7 +161,7 @@ pub struct FittedRecord {
     /// Standard deviation.
     #[schemars(range(min = 0))]
     pub sd: f64,
-    /// Whether the facets say more of it than was known before.
+    /// Whether the facets determine it better than its prior does.
     pub supported: bool,
 }
 
@@ -337,7 +337,7 @@ impl EstimateRecord {
     pub fn doubts(&self) -> Vec<String> {
         let warning = Some(self.residual_rms).filter(|rms| *rms > WRONG_CHI).map(|rms| {
             format!(
-                "the model misfits the facets by {rms:.0} times the noise; check angle, corners, \
+                "the facets differ from the model by {rms:.0} times the noise; check angle, corners, \
                  light, camera and exposure"
             )
         });
@@ -430,7 +430,7 @@ impl Sample {
     pub fn estimate(&self) -> Result<Option<EstimateRecord>> {
         match self.made::<EstimateRecord>("estimate")? {
             Some(estimate) if !estimate.is_spectrum() => {
-                let problem = "not as many values as wavelengths, two or more; estimate it again";
+                let problem = "needs as many values as wavelengths, two or more; estimate it again";
                 Err(Error::field("estimate", problem))
             }
             Some(estimate) => {

@@ -201,7 +201,7 @@ const NULL: &str = "null";
 /// The value of a field, or what is wrong with it.
 fn read<T: DeserializeOwned>(value: &RawValue) -> std::result::Result<T, String> {
     if !is_readable(value) {
-        return Err(format!("more than {VALUES_MAX} values; take fewer facets or wavelengths"));
+        return Err(format!("more than {VALUES_MAX} values; use fewer facets or wavelengths"));
     }
     serde_json::from_str(value.get()).map_err(|error| problem(&error))
 }

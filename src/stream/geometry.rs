@@ -56,7 +56,7 @@ impl From<&Fold> for FoldRecord {
 /// The error for another surface where a fold is needed.
 #[must_use]
 pub fn needs_fold() -> Error {
-    let problem = "a fold is needed here, and this is another shape; make the scene with vkernel --angle-deg";
+    let problem = "a fold is needed here, but this is another shape; make the scene with vkernel --angle-deg";
     Error::field("geometry", problem)
 }
 
@@ -82,7 +82,7 @@ impl Scene {
         let GeometryRecord::Fold(FoldRecord { angle_sd_deg, .. }) = self.geometry()? else { return Ok(None) };
         match angle_sd_deg {
             Some(sd_deg) if !(sd_deg > 0.0 && sd_deg.is_finite()) => {
-                let problem = format!("{sd_deg} is no standard deviation; give degrees above 0");
+                let problem = format!("{sd_deg} is not a standard deviation; give degrees above 0");
                 Err(Error::field("geometry.angle_sd_deg", problem))
             }
             known => Ok(known),

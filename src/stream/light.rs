@@ -155,7 +155,7 @@ impl SourceRecord {
                 let sky = StandardSky::of_type(number).ok_or_else(|| {
                     Error::field(
                         "light.sources",
-                        format!("{number} is no type of a standard sky; they are 1 to 15"),
+                        format!("{number} is not a type of standard sky; types are 1 to 15"),
                     )
                 })?;
                 LightSource::standard_sky(sky, zenith, sun, irradiance)
@@ -204,7 +204,7 @@ impl Scene {
             (1.0, sky) => sky,
             (0.0, 1.0) => f64::INFINITY,
             _ => {
-                let problem = format!("sun {sun} with sky {sky}: neither a sun of 1 nor a sky of 1 alone");
+                let problem = format!("sun {sun} with sky {sky}: the sun must be 1, or 0 with a sky of 1");
                 return Err(Error::field("light", format!("{problem}; {BY_VKERNEL}")));
             }
         };

@@ -16,7 +16,7 @@ pub(super) struct NoiseRecord {
     /// Error of the model, relative to a facet's value.
     #[schemars(range(min = 0))]
     pub(super) model_error: f64,
-    /// Standard deviation of all facets, where a flag gave it.
+    /// Standard deviation of all facets, if stated by a flag.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub(super) sd: Option<f64>,

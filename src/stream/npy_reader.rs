@@ -71,18 +71,17 @@ fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]
     let is_plain =
         |header: &Vec<u8>| header.iter().filter(|byte| b"([{".contains(byte)).count() <= BRACKETS_MAX;
     let Some(header) = header(&mut file).map_err(failed)?.filter(is_plain) else {
-        return Err(wrong("no NPY file of a plain array, by its header; save float64 numbers".to_owned()));
+        return Err(wrong("not an NPY file of a plain array; save float64 numbers".to_owned()));
     };
     let array = NpyFile::new(Cursor::new(&header).chain(file)).map_err(failed)?;
     let Some([rows, cols]) = extents(array.shape()) else {
         let got = array.shape();
-        return Err(wrong(format!("an array of shape {got:?}, where {needed}")));
+        return Err(wrong(format!("an array of shape {got:?}, but {needed}")));
     };
     let order = array.order();
     let numbers = array.data::<f64>().map_err(|e| wrong(format!("{e}; save float64 numbers")))?;
     if length.is_file() && length.len() < header.len() as u64 + 8 * (rows * cols) as u64 {
-        let problem =
-            format!("its header says {rows} x {cols} numbers, which it does not hold; save it again");
+        let problem = format!("its header says {rows} x {cols} numbers, but it holds fewer; save it again");
         return Err(wrong(problem));
     }
     let values: Vec<f64> = numbers.collect::<io::Result<_>>().map_err(failed)?;

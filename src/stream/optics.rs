@@ -53,7 +53,7 @@ pub struct StandInRecord {
     #[schemars(range(min = 0))]
     #[serde(alias = "curve_error")]
     pub sensitivity_error: f64,
-    /// Whether the curves are no other camera's, but predicted from its colour matrix.
+    /// Whether the sensitivities are predicted from its colour matrix, not those of another camera.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_predicted: bool,
 }
@@ -235,7 +235,7 @@ impl Scene {
     pub fn illuminants(&self) -> Result<Vec<SpectrumRecord>> {
         if self.is_light_unknown()? {
             let problem =
-                "unknown, and needed here; give vextract --illuminant the light, or leave it to vestimate";
+                "unknown, but needed here; state it with vextract --illuminant, or let vestimate find it";
             return Err(Error::field("illuminants", problem));
         }
         let illuminants: Vec<SpectrumRecord> =
@@ -270,7 +270,7 @@ fn on_grid(grid: &WavelengthGrid, name: &str, spectrum: &SpectrumRecord) -> Resu
 /// Checks the range of powers or sensitivities.
 fn not_negative<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> Result<()> {
     match values.into_iter().find(|value| !(0.0..=LARGEST).contains(*value)) {
-        Some(value) => Err(Error::field(name, format!("{value:e} cannot be; it needs numbers from 0"))),
+        Some(value) => Err(Error::field(name, format!("{value:e} is out of range; give numbers from 0"))),
         None => Ok(()),
     }
 }

@@ -39,9 +39,9 @@ pub struct ImageRecord {
     stored_as: String,
     /// The curve that was undone: linear or srgb.
     transfer: &'static str,
-    /// The stored number that is no light.
+    /// The stored number for no light.
     black_level: Levels,
-    /// The stored number that is 1.
+    /// The stored number for 1.
     white_level: Levels,
     /// The stored number at which each channel ends below the white level, and from which on its pixels are
     /// clipped; null for a channel that goes on.
@@ -57,7 +57,7 @@ pub struct ImageRecord {
     /// What the camera did to the picture, and was undone.
     #[serde(skip_serializing_if = "Option::is_none")]
     undone: Option<DevelopmentRecord>,
-    /// Whether the picture was developed for the eye, it seems, and nothing of that was undone.
+    /// Whether the picture appears to be developed for the eye, with nothing of that undone.
     #[serde(skip_serializing_if = "is_false")]
     developed: bool,
     /// What was done to the numbers, as their noise shows: `curve` or `matrix`.
@@ -93,10 +93,10 @@ pub struct ImageRecord {
     /// Sides along which no edge of the sheet lies, such as `the outer side of panel 0`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     open_sides: Vec<String>,
-    /// The fold that the corners are rather those of than of the scene's, if they are not those of that.
+    /// The fold to which the corners belong, if they do not fit that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     other_fold: Option<OtherFoldRecord>,
-    /// Distance from a facet's sides within which pixels are left out, px.
+    /// Distance from the panels' edges within which pixels are left out, px.
     margin_px: f64,
     /// Coefficients K1 and K2 of the lens.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -150,7 +150,7 @@ struct OtherFoldRecord {
     angle_sd_deg: f64,
     /// Depths of panels 0 and 1 over their width.
     depths: [f64; 2],
-    /// Whether its panels are others than the scene's, and not its angle.
+    /// Whether its panels differ from the scene's, rather than its angle.
     other_panels: bool,
 }
 

@@ -21,7 +21,7 @@ use crate::error::{Error, Result};
 pub fn picked_line(page: &str, text: &str) -> Result<String> {
     let remedy = "mark all four corners of a panel";
     let object: Value = serde_json::from_str(text)
-        .map_err(|e| Error::regions(page, format!("this is no JSON ({e})"), remedy))?;
+        .map_err(|e| Error::regions(page, format!("this is not JSON ({e})"), remedy))?;
     if Regions::from_fields(page, &Fields::of(&object)?)?.panels.is_empty() {
         return Err(Error::regions(page, "no panel is marked", remedy));
     }

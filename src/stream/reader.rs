@@ -22,7 +22,7 @@ const ONE_RECORD: &str = "each line must be one record";
 const OF_SCENES: [&str; 3] = ["\"geometry\"", "\"residues\"", "\"sensitivities\""];
 
 const NO_ROOM: &str =
-    "no room for a line this long; take fewer facets or wavelengths, or allow more memory (ulimit -v)";
+    "not enough memory for so long a line; use fewer facets or wavelengths, or allow more memory (ulimit -v)";
 
 /// One line of the stream.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,22 +112,20 @@ impl Reader {
                 return Err(Error::EmptyPipe);
             }
             return Err(
-                self.wrong("no record: the stream is empty", "give it what the tool before it writes")
+                self.wrong("no record: the stream is empty", "pipe the output of the preceding tool into it")
             );
         }
         let is_whole = bytes.ends_with(b"\n");
         if is_record(&bytes) && !is_whole {
             return Err(match bytes.len() as u64 {
-                LINE_MAX => self.wrong("a line of more than 1 GiB", "take fewer facets or wavelengths"),
-                _ => {
-                    self.wrong("the last line has no end: the stream was cut", "run the tool before it again")
-                }
+                LINE_MAX => self.wrong("a line of more than 1 GiB", "use fewer facets or wavelengths"),
+                _ => self.wrong("the stream was cut in its last line", "run the preceding tool again"),
             });
         }
         room::ask(
             bytes.len() as u64,
             &format!("{}:{}", self.path, self.line),
-            "take fewer facets or wavelengths",
+            "use fewer facets or wavelengths",
         )?;
         match self.fields(&bytes) {
             Ok(fields) => self.typed(fields).map(Some),
@@ -200,7 +198,7 @@ impl Reader {
                 if let Some(line) = self.lost_scene
                     && !matches!(sample.error(), Ok(Some(_)))
                 {
-                    let problem = format!("the scene above it, line {line}, cannot be read; mend that line");
+                    let problem = format!("the scene above it, line {line}, cannot be read; repair it");
                     sample.set_error(&Error::field("scene", problem))?;
                 }
                 Ok(Record::Sample(sample))

@@ -125,7 +125,7 @@ impl Regions {
             degrees => Ok(degrees),
         };
         let reason =
-            read(path, fields, "reason", "give a text")?.unwrap_or_else(|| "no fold was found".to_owned());
+            read(path, fields, "reason", "give text")?.unwrap_or_else(|| "no fold was found".to_owned());
         Ok(Self {
             panels: panels.into_iter().filter_map(|(number, corners)| Some((number?, corners))).collect(),
             chart: marked("chart")?,
@@ -154,8 +154,8 @@ impl Regions {
         // a preview's sides are rounded to whole pixels
         if (x_scale - y_scale).abs() > x_scale / w + y_scale / h {
             let problem =
-                format!("corners of a picture of {w} x {h} px, used on one of {width} x {height} px");
-            return Err(Error::regions(path, problem, "find them in this photograph, uncropped and upright"));
+                format!("corners of a picture of {w} x {h} px, but this one has {width} x {height} px");
+            return Err(Error::regions(path, problem, "mark them in this photograph, uncropped and upright"));
         }
         let mut scaled = self.clone();
         let targets = [&mut scaled.chart, &mut scaled.white].into_iter().flatten();

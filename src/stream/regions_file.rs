@@ -48,12 +48,12 @@ impl RegionsFile {
         let in_a_list = values.iter().any(Value::is_array);
         let objects: Vec<Value> = values.into_iter().flat_map(objects).collect();
         if objects.is_empty() {
-            return Err(Error::regions(&path, "there are no regions in it", format!("write {EXAMPLE}")));
+            return Err(Error::regions(&path, "it holds no regions", format!("write {EXAMPLE}")));
         }
         let is_list = in_a_list || objects.len() > 1;
         let entry = |(n, object): (usize, Value)| {
             if !object.is_object() {
-                let problem = format!("entry {n} is no object");
+                let problem = format!("entry {n} is not an object");
                 return Err(Error::regions(&path, problem, format!("write {EXAMPLE}")));
             }
             Regions::from_fields(&path, &Fields::of(&object)?)
@@ -71,7 +71,7 @@ impl RegionsFile {
         match self.entries.as_slice() {
             [only] => Ok(only),
             entries => {
-                let problem = format!("regions of {} photographs where one is needed", entries.len());
+                let problem = format!("regions of {} photographs, but one is needed", entries.len());
                 Err(Error::regions(&self.path, problem, "keep one of them"))
             }
         }
@@ -109,7 +109,7 @@ fn places(path: &str, entries: &[Regions]) -> Result<HashMap<String, usize>> {
             return Err(Error::regions(path, problem, "name its photograph"));
         };
         if places.insert(composed(image), n).is_some() {
-            let problem = format!("field 'image': '{image}' comes twice");
+            let problem = format!("field 'image': '{image}' occurs twice");
             return Err(Error::regions(path, problem, "keep one of the two entries"));
         }
     }
@@ -148,9 +148,9 @@ mod tests {
 
     #[test]
     fn a_fault_is_named_with_its_field() {
-        assert!(refused("").contains("no regions in it") && refused("[]").contains("no regions in it"));
+        assert!(refused("").contains("it holds no regions") && refused("[]").contains("it holds no regions"));
         assert!(refused("{").contains("EOF while parsing"));
-        assert!(refused("7").contains("entry 0 is no object"));
+        assert!(refused("7").contains("entry 0 is not an object"));
         assert!(
             refused(r#"{"panle0": 1}"#)
                 .contains("no field 'panle0'; the fields are panel0, panel1, .., chart")
@@ -164,7 +164,7 @@ mod tests {
         assert!(refused(r#"{"width": 10, "height": -1}"#).contains("field 'height'"));
         assert!(refused(r#"[{"image": 3}]"#).contains("field 'image'"));
         assert!(refused(r#"[{"image": "a.tif"}, {}]"#).contains("entry 1 of the list has no field 'image'"));
-        assert!(refused(r#"[{"image": "a"}, {"image": "a"}]"#).contains("'a' comes twice"));
+        assert!(refused(r#"[{"image": "a"}, {"image": "a"}]"#).contains("'a' occurs twice"));
     }
 
     #[test]
@@ -177,7 +177,7 @@ mod tests {
         assert!(of("b.png").unwrap_err().to_string().contains("'b.png'"));
         let composed = open("[{\"image\": \"\u{e9}.tif\"}]").unwrap();
         assert!(composed.of(Path::new("e\u{301}.tif"), [9, 9]).is_ok());
-        assert!(refused("[{\"image\": \"\u{e9}\"}, {\"image\": \"e\u{301}\"}]").contains("comes twice"));
+        assert!(refused("[{\"image\": \"\u{e9}\"}, {\"image\": \"e\u{301}\"}]").contains("occurs twice"));
         let all = open(&format!(r#"{{"image": "a.tif", "panel0": {SQUARE}, "panel1": null}}"#)).unwrap();
         assert!(all.of(Path::new("b.tif"), [9, 9]).unwrap().panels.contains_key(&0));
     }
@@ -188,7 +188,7 @@ mod tests {
         let marked = sample(&format!(", \"regions\": {{\"image\": \"w.exr\", \"panel3\": {SQUARE}}}"));
         let stream = open(&format!("{{\"kind\": \"scene\"}}\n{marked}{}", sample(""))).unwrap();
         assert!(stream.of(Path::new("noisy.tif"), [9, 9]).unwrap().panels.contains_key(&3));
-        assert!(refused(&sample("")).contains("no regions in it"));
+        assert!(refused(&sample("")).contains("it holds no regions"));
     }
 
     #[test]

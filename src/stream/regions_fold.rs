@@ -7,10 +7,10 @@ use crate::image::{CornersBy, FoldAngle, FoldSeen};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoAngle {
     /// There are fewer than six.
-    #[error("there are no corners of panel{0}, so that the angle is unknown")]
+    #[error("panel{0} has no corners, so the angle is unknown")]
     NoCorners(usize),
     /// The middle of the picture is unknown.
-    #[error("the picture's 'width' and 'height' are missing, without which corners do not fix the angle")]
+    #[error("the picture's 'width' and 'height' are missing, without which the corners do not fix the angle")]
     NoSize,
     /// No fold that opens towards the camera has these corners.
     #[error("no fold that is open to the camera has these corners")]

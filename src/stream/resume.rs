@@ -91,7 +91,7 @@ impl Resumed {
         let mut file =
             File::options().read(true).write(true).create(true).truncate(false).open(path).map_err(failed)?;
         if !file.metadata().map_err(failed)?.is_file() {
-            return Err(failed(io::Error::other("not a regular file, which alone can be resumed")));
+            return Err(failed(io::Error::other("not a regular file: it cannot be resumed")));
         }
         #[cfg(unix)]
         rustix::fs::flock(&file, rustix::fs::FlockOperation::NonBlockingLockExclusive)
@@ -101,7 +101,7 @@ impl Resumed {
         file.seek(SeekFrom::Start(whole)).map_err(failed)?;
         (&file).take(BEGINNING.len() as u64).read_to_end(&mut rest).map_err(failed)?;
         if !BEGINNING.starts_with(&rest) {
-            return Err(wrong(path, lines + 1, "the last line is no part of a record"));
+            return Err(wrong(path, lines + 1, "the last line is not part of a record"));
         }
         let written = BufReader::new(File::open(path).map_err(failed)?.take(whole));
         let claim = Claim::new(&path.canonicalize().map_err(failed)?)?;
@@ -205,7 +205,7 @@ fn wrong(path: &Path, line: usize, problem: &str) -> Error {
         path: path.display().to_string(),
         line,
         problem: problem.to_owned(),
-        remedy: "--resume goes on with what the same command wrote from the same input; give another file"
+        remedy: "--resume continues what the same command wrote from the same input; give another file"
             .to_owned(),
     }
 }
@@ -214,7 +214,7 @@ fn wrong(path: &Path, line: usize, problem: &str) -> Error {
 fn difference(there: &[u8], made: &[u8]) -> String {
     let fields = |line| serde_json::from_slice::<Fields>(line).ok();
     let (Some(there), Some(made)) = (fields(there), fields(made)) else {
-        return "not the line that this run makes".to_owned();
+        return "not the line that this run writes".to_owned();
     };
     let id = |fields: &Fields| fields.get::<String>("id").ok().flatten().unwrap_or_default();
     let name = |fields: &Fields| format!("{} '{}'", fields.kind(), id(fields));
@@ -223,6 +223,6 @@ fn difference(there: &[u8], made: &[u8]) -> String {
     }
     match made.names().chain(there.names()).find(|field| there.text(field) != made.text(field)) {
         Some(field) => format!("the '{field}' of {} is not what this run makes", name(&there)),
-        None => format!("{} is written in another way than by this run", name(&there)),
+        None => format!("{} is written differently by this run", name(&there)),
     }
 }

@@ -40,7 +40,7 @@ pub struct ReflectanceRecord {
 /// Rejects impossible reflectances in a field.
 pub(super) fn checked(field: &str, reflectance: &[f64]) -> Result<()> {
     match reflectance.iter().find(|value| !(0.0..=1.0).contains(*value)) {
-        Some(value) => Err(Error::field(field, format!("{value:e} is no reflectance; it needs 0 to 1"))),
+        Some(value) => Err(Error::field(field, format!("{value:e} is not a reflectance; give 0 to 1"))),
         None => Ok(()),
     }
 }
@@ -50,7 +50,7 @@ pub(super) fn checked_radiance<'a>(field: &str, factors: impl IntoIterator<Item 
     match factors.into_iter().find(|value| !(0.0..=LARGEST).contains(*value)) {
         Some(value) => Err(Error::field(
             field,
-            format!("{value:e} is no part of white's light; it needs numbers from 0"),
+            format!("{value:e} is not a fraction of white's light; give numbers from 0"),
         )),
         None => Ok(()),
     }
@@ -143,10 +143,9 @@ impl Sample {
     /// [`Error::Field`] if it is not a number above 0.
     pub fn exposure(&self) -> Result<Option<f64>> {
         match self.fields.get("exposure")? {
-            Some(exposure) if !(exposure > 0.0 && exposure <= LARGEST) => Err(Error::field(
-                "exposure",
-                format!("{exposure} gives no picture; it needs a number above 0"),
-            )),
+            Some(exposure) if !(exposure > 0.0 && exposure <= LARGEST) => {
+                Err(Error::field("exposure", format!("{exposure} is out of range; give a number above 0")))
+            }
             exposure => Ok(exposure),
         }
     }

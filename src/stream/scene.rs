@@ -23,7 +23,7 @@ impl Scene {
             Some(format) if format == FORMAT => Ok(Self { fields }),
             Some(format) => Err(Error::field(
                 "format",
-                format!("'{format}' where this version reads '{FORMAT}'; make the scene again with vkernel"),
+                format!("'{format}', but this version reads '{FORMAT}'; make the scene again with vkernel"),
             )),
             None => Err(Error::field("format", format!("missing; {BY_VKERNEL}"))),
         }

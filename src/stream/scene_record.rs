@@ -74,11 +74,11 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1), extend("x-writer" = "vforward, vextract"))]
     illuminants: Option<Vec<SpectrumRecord>>,
-    /// Whether nobody knows the light: it is found along with the reflectance, and there are no illuminants.
+    /// True if the light is unknown: it is estimated with the reflectance, and there are no illuminants.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract, vestimate"))]
     illuminant_unknown: Option<bool>,
-    /// Whether nobody stated the illuminant: of daylight that is assumed, the colour is an unknown of the
+    /// True if daylight was assumed because no illuminant was stated: its colour is an unknown of the
     /// estimate.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]

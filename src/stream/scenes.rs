@@ -108,12 +108,12 @@ impl<T> Scenes<T> {
                 true => {
                     format!("'{id}' is none of the last {} scenes, and no more are kept", self.above.len())
                 }
-                false => format!("no scene '{id}' comes before the sample; that above it is {above}"),
+                false => format!("no scene '{id}' comes before the sample; the scene above it is {above}"),
             };
             return Err(Error::field("scene", format!("{problem}; {REMEDY}")));
         };
         if found.is_ambiguous {
-            let problem = format!("two scenes above the sample are called '{id}', and it may be of either");
+            let problem = format!("two scenes above the sample are called '{id}': it may belong to either");
             return Err(Error::field(
                 "scene",
                 format!("{problem}; {REMEDY}, or name scenes with vkernel --id"),

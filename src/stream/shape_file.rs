@@ -61,7 +61,7 @@ pub fn read_shape(path: &Path) -> Result<(Shape, Vec<String>)> {
         "obj" => obj::read(path),
         "ply" => ply::read(path),
         "json" => read_json(path).map_err(|e| e.of_file(path)),
-        _ => Err(Error::shape("its name tells no format", "give a file .obj, .ply or .json").of_file(path)),
+        _ => Err(Error::shape("its name shows no format", "end it in .obj, .ply or .json").of_file(path)),
     }
 }
 

@@ -87,7 +87,7 @@ impl Accordion {
             return Err(Error::usage("--ridge-deg", problem, "give degrees above 0 and up to 180 (flat)"));
         }
         if self.bow_deg.is_nan() || self.bow_deg.abs() >= 180.0 {
-            let problem = format!("{} bends a panel round", self.bow_deg);
+            let problem = format!("{} is out of range", self.bow_deg);
             return Err(Error::usage("--bow-deg", problem, "give degrees between -180 and 180"));
         }
         Ok(())

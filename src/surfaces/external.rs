@@ -31,11 +31,11 @@ impl DenseExchange {
         for (i, row) in kernel.row_iter().enumerate() {
             if let Some(entry) = row.iter().find(|entry| !(0.0..1.0).contains(*entry)) {
                 let problem =
-                    format!("{entry} in row {i} is no share of a facet's light; give numbers from 0 to 1");
+                    format!("{entry} in row {i} is not a share of a facet's light; give numbers from 0 to 1");
                 return Err(Error::field("kernel", problem));
             }
             if row.sum() >= 1.0 {
-                let problem = format!("row {i} hands on {} of its light: bounces would not end", row.sum());
+                let problem = format!("row {i} passes on {} of its light: bounces would not end", row.sum());
                 return Err(Error::field("kernel", problem));
             }
         }
@@ -44,7 +44,7 @@ impl DenseExchange {
             None => areas_of(kernel),
         };
         if let Some(area) = areas.iter().find(|area| !(1e-150..1e150).contains(*area)) {
-            return Err(Error::field("areas", format!("{area} is no area; give numbers above 0")));
+            return Err(Error::field("areas", format!("{area} is not an area; give numbers above 0")));
         }
         check_reciprocity(kernel, &areas)?;
         Ok(Self::new(kernel, &areas, (0..areas.len()).collect()))
@@ -59,7 +59,7 @@ fn check_reciprocity(kernel: &DMatrix<f64>, areas: &[f64]) -> Result<()> {
             if off > RECIPROCITY {
                 let problem = format!(
                     "facets {j} and {i} break reciprocity by {off:.1e}: \
-                     area times entry must be alike in both directions"
+                     area times entry must be the same in both directions"
                 );
                 return Err(Error::field("kernel", problem));
             }

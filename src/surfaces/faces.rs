@@ -20,7 +20,7 @@ pub(super) fn flat(vertices: &[[f64; 3]], corners: &[usize], n: usize) -> Result
     let mut points = Vec::new();
     for corner in corners {
         let Some(point) = vertices.get(*corner) else {
-            let problem = format!("face {n} has vertex {corner} of {}", vertices.len());
+            let problem = format!("face {n} uses vertex {corner} of only {}", vertices.len());
             return Err(Error::shape(problem, "count vertices from 0"));
         };
         points.push(Vec3::from(*point));

@@ -58,9 +58,10 @@ impl ReducedExchange {
         let system = (!known.is_empty()).then(system);
         let solve = |right: DMatrix<f64>| {
             let Some(system) = &system else { return Ok(right) };
-            system.solve(&right).map(reflect).ok_or_else(|| {
-                Error::Numeric("the known parts keep all light that they receive: open them".to_owned())
-            })
+            system
+                .solve(&right)
+                .map(reflect)
+                .ok_or_else(|| Error::Numeric("no light escapes the known parts: open them".to_owned()))
         };
         // exitances of the known parts: in direct light, and for one unit of each unknown function
         let own = solve(self.lights.select_rows(&known))?;

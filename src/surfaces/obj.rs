@@ -34,11 +34,11 @@ pub fn read(path: &Path) -> Result<(Shape, Vec<String>)> {
     let mut bytes = Vec::new();
     file::open(path)?.read_to_end(&mut bytes).map_err(|e| Error::file(path.display(), e))?;
     if let Some(line) = line_of_no_index(&bytes) {
-        let problem = format!("line {line}: a face has a corner of no index");
+        let problem = format!("line {line}: a corner of a face has no index");
         return Err(Error::shape(problem, "export the surface again").of_file(path));
     }
     let models = parse(&bytes)
-        .map_err(|e| Error::shape(format!("it is no OBJ file: {e}"), "export the surface again"))
+        .map_err(|e| Error::shape(format!("not an OBJ file: {e}"), "export the surface again"))
         .and_then(|(models, _)| surface(&models));
     models.map_err(|e| e.of_file(path))
 }

@@ -24,7 +24,7 @@ fn surface(file: &mut impl Read) -> Result<(Shape, Vec<String>)> {
     let broken = |problem: String| Error::shape(problem, "export the surface again");
     let parsed = Parser::<DefaultElement>::new().read_ply(file);
     let first_line = |text: String| text.lines().next().unwrap_or_default().trim_end_matches('.').to_owned();
-    let ply = parsed.map_err(|e| broken(format!("it is no PLY file: {}", first_line(e.to_string()))))?;
+    let ply = parsed.map_err(|e| broken(format!("not a PLY file: {}", first_line(e.to_string()))))?;
     let elements = |name: &str| ply.payload.get(name).map(Vec::as_slice).unwrap_or_default();
     let vertex = |element: &DefaultElement| {
         let [x, y, z] = ["x", "y", "z"].map(|axis| element.get(axis).and_then(number));

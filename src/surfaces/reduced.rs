@@ -63,8 +63,9 @@ impl ReducedExchange {
                 return Ok(functions.reduce(exchange, &starts, tolerance));
             }
             if least < ROUNDING {
-                let problem =
-                    format!("interreflections did not converge to {tolerance:e}: ask for a larger tolerance");
+                let problem = format!(
+                    "interreflections did not converge to {tolerance:e}; give vkernel a larger --tolerance"
+                );
                 return Err(Error::Numeric(problem));
             }
             least *= 0.1;
@@ -100,8 +101,7 @@ impl Functions {
                     continue;
                 }
                 if all.of_patches.len() == FUNCTIONS_MAX {
-                    let problem =
-                        "the light of so many parts takes too many functions: ask for a larger tolerance";
+                    let problem = "too many parts are lit differently; give vkernel a larger --tolerance";
                     return Err(Error::Numeric(problem.to_owned()));
                 }
                 light.iter_mut().for_each(|x| *x /= weight);

@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn faces_that_are_no_facets_are_named() {
-        assert!(refusal(vec![vec![0, 1, 2], vec![0, 1, 9]]).contains("face 1 has vertex 9 of 6"));
+        assert!(refusal(vec![vec![0, 1, 2], vec![0, 1, 9]]).contains("face 1 uses vertex 9 of only 6"));
         assert!(refusal(vec![vec![0, 1, 2, 3, 4]]).contains("face 0 has 5 corners"));
         assert!(refusal(vec![vec![0, 1, 2, 5]]).contains("not flat"));
         assert!(refusal(vec![vec![0, 1, 4, 3]]).contains("not convex"));

@@ -30,7 +30,7 @@ extract() { vextract "$@" --scene scene.json --camera canon-5d-mark-ii --illumin
 head -1 found.json > one.json
 extract photo.tif --regions one.json -o told.ndjson
 extract photo.tif -o found.ndjson 2> said
-sed 's|to [0-9.]* % sure|to .. % sure|' said
+sed 's|[0-9.]* % sure|.. % sure|' said
 vestimate found.ndjson -o estimate.ndjson
 python3 - <<'END'
 import json

@@ -37,7 +37,7 @@ for line in open("found.json"):
 END
 
 extract() { vextract "$@" --scene scene.json --camera canon-5d-mark-ii; }
-said() { sed 's|[0-9.]* % sure|.. % sure|; s|by [0-9]*°|by ..°|' said; }
+said() { sed 's|[0-9.]* % sure|.. % sure|; s|faces [0-9]*°|faces ..°|' said; }
 head -1 found.json > one.json
 python3 -c 'import json; found = json.load(open("one.json")); print(json.dumps({"panel0": found["panel0"], "panel1": found["panel1"]}))' > panels.json
 extract photo.tif --illuminant D65 --regions panels.json --chart "$chart" -o told.ndjson

@@ -16,11 +16,11 @@ END
     vscore estimate.ndjson --truth cc24:orange --table | below RMSE=0.06 CIEDE2000=4 PD=0.02 | tail -n 1
 }
 photo --tilt-deg 1
-judge photo.tif "rests on the light"
+judge photo.tif "cannot confirm the light"
 oiiotool photo.tif --pattern constant:color=1,1,1 320x240 3 --fill:color=0.5,0.5,0.5 60x70+80+20 --mul -d uint16 -o shadow.tif
 judge shadow.tif "a shadow lies on panel 0"
 photo --light point:0,0,5.4
-judge photo.tif "a lamp 5 depths of a panel away"
+judge photo.tif "a lamp 5 panel depths away"
 photo --light point:0,-1.5,5.4
 judge photo.tif "light falls off along the crease"
 # A sky that was stated is an expectation: what the photograph shows is found along with it.

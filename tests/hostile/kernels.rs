@@ -30,7 +30,7 @@ fn kernels_and_lights() {
             case("vforward --reflectance 0.5 --kernel flat.npy", 1, &["square"]),
             case("vforward --reflectance 0.5 --kernel empty.npy", 1, &["square"]),
             case("vforward --reflectance 0.5 --kernel single.npy", 1, &["float64"]),
-            case("vforward --reflectance 0.5 --kernel negative.npy", 1, &["no share"]),
+            case("vforward --reflectance 0.5 --kernel negative.npy", 1, &["not a share"]),
             case("vforward --reflectance 0.5 --kernel shining.npy", 1, &["bounces would not end"]),
             case("vforward --reflectance 0.5 --kernel one-way.npy", 1, &["reciprocity"]),
             case("vforward --reflectance 0.5 --kernel loop.npy", 1, &["reciprocity"]),
@@ -63,7 +63,7 @@ fn flags_beside_kernels() {
             case(
                 "vforward --kernel good.npy --reflectance 0.5 --material a=1 --material a=0",
                 2,
-                &["has two"],
+                &["stated twice"],
             ),
             case(
                 "vforward --kernel good.npy --reflectance 0.5 | vestimate --fit tilt",

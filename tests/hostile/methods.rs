@@ -78,16 +78,16 @@ fn samples_that_do_not_fit_the_method() {
     for (script, says) in [
         (
             "vestimate fold.ndjson --method park",
-            "folded, and this method knows no bounces; use vkernel --angle-deg 180",
+            "folded, but this method ignores bounces; use vkernel --angle-deg 180",
         ),
-        ("vestimate flat.ndjson --method park --components 70", "70 components asked for"),
+        ("vestimate flat.ndjson --method park --components 70", "70 components requested"),
         ("vestimate flat.ndjson --method khan --components 7", "camera and lights have 6"),
         ("vestimate flat.ndjson --method khan --exposure free", "give --exposure X or sum"),
         (
             "vestimate flat.ndjson --method park --smoothness 0 --components 8",
-            "8 components are more than the values tell",
+            "8 components are more than the values determine",
         ),
-        ("vestimate flat.ndjson --method khan --components 2 --basis dark.csv", "zero at one wavelength"),
+        ("vestimate flat.ndjson --method khan --components 2 --basis dark.csv", "zero at a wavelength"),
         (
             r#"sed '2s/"facet_rgb":\[\[/&[0.1,0.1,0.1],/' flat.ndjson | vestimate"#,
             "2 facets in one picture, 3 in another",

@@ -18,7 +18,7 @@ fn names_of_outputs() {
             case(
                 "vforward scene.json --reflectance 0.5 -o x --save facet_rgb=x",
                 2,
-                &["outputs", "two of this run would go to x", "a name of its own"],
+                &["outputs", "two would be written to x", "its own name"],
             ),
             case(
                 "vforward scene.json --reflectance 0.5 -o folder/x --save facet_rgb=folder/../folder/x",
@@ -45,9 +45,9 @@ fn names_of_outputs() {
                 1,
                 &["samples.ndjson"],
             ),
-            case("vkernel -o loop", 1, &["loop", "a link that leads to no file"]),
-            case("vkernel -o dangling", 1, &["dangling", "a link that leads to no file"]),
-            case("vkernel --save kernel=dangling", 1, &["dangling", "a link that leads to no file"]),
+            case("vkernel -o loop", 1, &["loop", "a link to a missing file"]),
+            case("vkernel -o dangling", 1, &["dangling", "a link to a missing file"]),
+            case("vkernel --save kernel=dangling", 1, &["dangling", "a link to a missing file"]),
         ],
     );
 }

@@ -62,7 +62,7 @@ END
             case(
                 "sh whole photo.exr --panel 0='332,462 345,77 485,17 472,446'",
                 2,
-                &["--panel", "panel 0 is given twice"],
+                &["--panel", "panel 0 is stated twice"],
             ),
             case("sh whole photo.exr --panel '332,462 345,77 485,17 472,446'", 2, &["--panel", "N="]),
             case("sh extract photo.exr ''", 2, &["--panel0", "0 corners"]),
@@ -71,8 +71,8 @@ END
                 1,
                 &["panel 0: no facet", "640 x 480 px"],
             ),
-            case("sh whole photo.exr --refine=0", 2, &["--refine", "reach"]),
-            case("sh whole photo.exr --refine=NaN", 2, &["--refine", "reach"]),
+            case("sh whole photo.exr --refine=0", 2, &["--refine", "out of range"]),
+            case("sh whole photo.exr --refine=NaN", 2, &["--refine", "out of range"]),
             case(
                 "sh whole photo.exr --refine --panel1 '32,462 45,77 85,17 72,446'",
                 2,
@@ -96,7 +96,7 @@ END
                 "vextract photo.exr --scene scene.json --camera one.csv \
                     --panel0 '332,462 345,77 122,12 104,442'",
                 1,
-                &["photo.exr", "in red, green and blue", "camera has 1 channels"],
+                &["photo.exr", "an RGB picture", "camera has 1 channels"],
             ),
             case("sh whole big.tif", 1, &["big.tif", "BigTIFF", "less than 4 GiB"]),
             case("sh whole photo.nef", 1, &["photo.nef", "named like a camera's RAW file", "JPEG"]),
@@ -117,7 +117,7 @@ END
             case(
                 "sh whole photo.exr --panel1 '332,462 345,77 122,12 104,442'",
                 2,
-                &["panels 0 and 1", "over each other"],
+                &["panels 0 and 1", "overlap"],
             ),
             case("sh whole photo.exr --white-level 0", 2, &["--white-level", "black level"]),
             case("sh whole photo.exr --exposure 0", 2, &["--exposure", "above 0"]),

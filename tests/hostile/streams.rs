@@ -36,7 +36,7 @@ fn streams() {
     assert_refused(
         STREAM,
         &[
-            case("vforward --reflectance 0.5 < /dev/null", 1, &["-:1", "no record", "the tool before it"]),
+            case("vforward --reflectance 0.5 < /dev/null", 1, &["-:1", "no record", "the preceding tool"]),
             case("vestimate < /dev/null", 1, &["-:1", "no record"]),
             case("vscore /dev/null", 1, &["/dev/null:1", "no record"]),
             case("echo hello | vestimate", 1, &["-:1", "not a JSON object"]),
@@ -123,9 +123,9 @@ fn streams() {
             case("vestimate good.ndjson --prior munsel", 1, &["munsel", "munsell"]),
             case("vestimate good.ndjson --prior 0.5", 2, &["--prior", "one spectrum", "two or more"]),
             case("vestimate good.ndjson --fit colour", 2, &["--fit", "tilt"]),
-            case("vestimate good.ndjson --fit auto,angle", 2, &["--fit", "auto stands alone"]),
-            case("vestimate good.ndjson --fit none,tilt", 2, &["--fit", "none stands alone"]),
-            case("vestimate good.ndjson --fit auto,auto", 2, &["--fit", "auto stands alone"]),
+            case("vestimate good.ndjson --fit auto,angle", 2, &["--fit", "auto cannot be combined"]),
+            case("vestimate good.ndjson --fit none,tilt", 2, &["--fit", "none cannot be combined"]),
+            case("vestimate good.ndjson --fit auto,auto", 2, &["--fit", "auto cannot be combined"]),
             case("vestimate good.ndjson --fit ''", 2, &["--fit", "auto"]),
             case("vestimate good.ndjson --fit gloss", 2, &["--fit", "gloss", "auto"]),
             case("vestimate good.ndjson --fit auto --prior smooth", 2, &["--fit", "--prior"]),
@@ -150,7 +150,7 @@ fn streams() {
                 "sed 's/\"sensitivities\":[^]]*/\"sensitivities\":[[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,\
                     0,0,0,0,0,0,0,0,0,0,0/' good.ndjson | vestimate",
                 1,
-                &["-:1", "channel 0", "sees nothing"],
+                &["-:1", "channel 0", "does not respond"],
             ),
             case("vestimate good.ndjson --plot no/such.svg", 1, &["no/such.svg"]),
             case("vestimate good.ndjson --save nothing=x.npy", 1, &["x.npy", "--save"]),
@@ -198,7 +198,7 @@ fn estimates() {
         ("s/\"estimate\":/\"guess\":/", "", "run the samples through vestimate first"),
         ("2s/\\(\"estimate\".*\"wavelengths_nm\":\\[\\)400/\\1401/", "", "estimate it again"),
         ("s/\"truth\":/\"guess\":/", "", "give --truth SPEC"),
-        ("", "--truth cc24", "--truth has no member '0.5' among its 24"),
+        ("", "--truth cc24", "--truth has no spectrum '0.5' among its 24"),
     ] {
         assert_marked(&folder, &format!("sed '{edit}' estimated.ndjson | vscore {flags}"), says);
     }

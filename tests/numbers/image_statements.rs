@@ -253,12 +253,12 @@ fn openexr_that_is_not_read_is_named() {
     oiiotool(&folder, "a.exr b.exr --siappend -o two.exr");
     let refused = refusal(&folder.path().join("two.exr"));
     assert!(
-        refused.contains("several pictures in one file, its parts 0 'left', 1 'right'; save the part"),
+        refused.contains("several pictures in one file, its parts 0 'left', 1 'right'; save the intended"),
         "{refused}"
     );
     oiiotool(&folder, "--pattern constant:color=.2,.4,.6 16x9 3 -d uint32 -o whole.exr");
     let refused = refusal(&folder.path().join("whole.exr"));
-    assert!(refused.contains("channel R has whole numbers (UINT)"), "{refused}");
+    assert!(refused.contains("channel R holds whole numbers (UINT)"), "{refused}");
     let bytes = fs::read(folder.path().join("a.exr")).unwrap();
     let view = |name: &str| [&(name.len() as u32).to_le_bytes()[..], name.as_bytes()].concat();
     let views = [view("left"), view("right")].concat();
@@ -266,7 +266,7 @@ fn openexr_that_is_not_read_is_named() {
     // attributes follow the mark and the version
     let spliced = [&bytes[..8], &views, &bytes[8..]].concat();
     let refused = refusal(&written(&folder, "views.exr", &spliced));
-    assert!(refused.contains("a picture of several views: left, right; save the view"), "{refused}");
+    assert!(refused.contains("a picture of several views: left, right; save the intended"), "{refused}");
     let mark = b"compression\0compression\0";
     let at = bytes.windows(mark.len()).position(|window| window == mark).unwrap() + mark.len() + 4;
     for (number, why) in [(10, "HTJ2K"), (11, "HTJ2K"), (12, "compression")] {
@@ -309,7 +309,7 @@ fn numbers_that_are_no_light_are_refused() {
     let mut inks = fs::read(encoded(&folder, "a.jpg", None, None)).unwrap();
     let frame = inks.windows(2).position(|two| two == [0xff, 0xc0]).unwrap();
     inks[frame + 9] = 4;
-    assert!(refusal(&written(&folder, "inks.jpg", &inks)).contains("inks (CMYK)"));
+    assert!(refusal(&written(&folder, "inks.jpg", &inks)).contains("CMYK"));
     let wide = Path::new("wide.tif");
     let mut bytes = fs::read(encoded(&folder, "a.tif", None, None)).unwrap();
     let bits = bytes.windows(8).rposition(|entry| entry == [2, 1, 3, 0, 3, 0, 0, 0]).unwrap();

@@ -72,7 +72,7 @@ fn an_angle_that_is_told_wins_and_is_compared() {
     assert!((number(&told["angle_deg"]) - 50.2).abs() < 1e-9 && told.get("angle_sd_deg").is_none(), "{told}");
     assert_eq!(said, "");
     let (_, said) = angle("--angle-deg 45");
-    assert_eq!(said, "vkernel: -: the corners say 50.0 ± 0.3°, --angle-deg 45, which is taken\n");
+    assert_eq!(said, "vkernel: -: the corners show 50.0 ± 0.3°; --angle-deg 45 is used instead\n");
     assert_eq!(angle("--angle-deg 45 -q").1, "");
     let (of_square, _) = angle("--panel 2x2");
     assert!((number(&of_square["angle_deg"]) - 50.0).abs() < 0.3, "{of_square}");
@@ -97,7 +97,7 @@ fn a_scene_of_another_fold_is_doubtful() {
             ("--angle-deg 50 --panel 1x2", "those of panels 1.00 times as deep as wide"),
         ] {
             let [level, because] = verdict(fold, corners);
-            let is = format!("the corners are not those of the fold that was stated, but {is}");
+            let is = format!("the corners are not those of the stated fold, but {is}");
             assert!(level == "doubtful" && because.starts_with(&is), "{level} {because}");
         }
     }
@@ -131,16 +131,14 @@ fn corners_of_the_picker_tell_the_angle() {
     assert!(refused(&sizeless, "").contains("'width' and 'height' are missing"));
     assert_eq!(records(&run(&sizeless, "--angle-deg 50"))[0]["geometry"]["angle_deg"], 50.0);
     let half = r#"{"panel0": [[332, 462], [345, 77], [122, 12], [104, 442]], "width": 640, "height": 480}"#;
-    assert!(refused(half, "").contains("no corners of panel1"));
+    assert!(refused(half, "").contains("panel1 has no corners"));
     let vague = sized.replace("{\"panel0", "{\"angle_deg\": 50, \"angle_sd_deg\": 8, \"panel0");
-    assert!(
-        refused(&vague, "").contains("the corners tell the angle to 8° only, 50°; give the panels' form")
-    );
+    assert!(refused(&vague, "").contains("the corners fix the angle only to 50 ± 8°; give the panels'"));
     assert!(refused(r#"{"found": false, "reason": "it is dark"}"#, "").contains("it is dark"));
     assert!(
         refused(&format!("[{sized}, {sized}]").replace("[{", "[{\"image\": \"a\", "), "").contains("image")
     );
-    assert!(refused(&sized.replace("640", "640, \"confidence\": 0.5"), "").contains("to 50 % sure only"));
+    assert!(refused(&sized.replace("640", "640, \"confidence\": 0.5"), "").contains("are only 50 % sure"));
     assert!(refused(&sized.replace("640", "640, \"angle_deg\": 0"), "").contains("field 'angle_deg': 0"));
 }
 
@@ -177,5 +175,5 @@ fn a_scene_is_of_one_photograph() {
     let run =
         with_photo().sh("cp photo.exr other.exr; vextract --find photo.exr other.exr | vkernel --regions -");
     assert_eq!(run.status, 1);
-    assert!(run.stderr.contains("regions of 2 photographs where one is needed"), "{}", run.stderr);
+    assert!(run.stderr.contains("regions of 2 photographs, but one is needed"), "{}", run.stderr);
 }

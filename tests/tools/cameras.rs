@@ -100,19 +100,19 @@ fn a_camera_that_nobody_measured_has_a_stand_in() {
     assert!(camera["name"].as_str().unwrap().starts_with("nikon-"), "{camera}");
     assert_eq!(camera["stands_in"]["camera"], "NIKON CORPORATION NIKON D5200");
     assert!(camera["stands_in"]["sensitivity_error"].as_f64().unwrap() > 0.03);
-    let warning = "warning: nobody measured the curves of NIKON CORPORATION NIKON D5200: nikon-";
+    let warning = "sensitivities of NIKON CORPORATION NIKON D5200 have not been measured: nikon-";
     assert!(run.stderr.contains(warning) && run.stderr.contains("--save-camera"), "{}", run.stderr);
     assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
     let judged = folder.sh("sh extract --quiet | vestimate -q --prior cc24 | tail -n 1");
-    assert!(judged.stdout.contains("another camera's stand in for them"), "{judged:?}");
+    assert!(judged.stdout.contains("those of another camera stand in"), "{judged:?}");
     let run = folder.sh("sh picture 'Leica Camera AG' 'LEICA Q3'; sh extract");
-    assert!(run.stderr.contains("the most usual of all makers"), "{}", run.stderr);
+    assert!(run.stderr.contains("the most typical of all makers"), "{}", run.stderr);
     let run = folder.sh("sh picture '' ''; sh extract");
     assert_eq!((run.status, run.stdout.as_str()), (2, ""));
     assert!(run.stderr.contains("the photograph names no camera"), "{}", run.stderr);
     let named = folder.sh("sh picture 'Leica Camera AG' 'LEICA Q3'; sh extract --camera nikon-d70");
     assert!(
-        named.stderr.lines().count() == 1 && named.stderr.contains("warning: EXIF of photo.tif says Leica"),
+        named.stderr.lines().count() == 1 && named.stderr.contains("photo.tif: its EXIF names Leica"),
         "{}",
         named.stderr
     );
@@ -260,9 +260,9 @@ fn what_a_cameras_file_leaves_open_is_said() {
     assert_eq!(
         run.stderr.lines().collect::<Vec<_>>(),
         [
-            "vforward: places.csv: channels c1, c2, c3 taken for R, G, B by their places, \
-             as no name says a colour",
-            "vforward: scaled.csv: all channels have the same peak, as no camera's do: \
+            "vforward: places.csv: channels c1, c2, c3 taken as R, G, B by position, \
+             as no name gives a colour",
+            "vforward: scaled.csv: all channels have the same peak, unlike any camera's: \
              scaled one by one, they have lost their ratios",
         ]
     );

@@ -82,7 +82,7 @@ fn what_is_no_daylight_is_to_be_found() {
     ] {
         let run = folder.sh(&format!("{SETUP}\n{picture}; sh extract"));
         assert!(run.stdout.contains("\"illuminant_unknown\":true"), "{picture}: {run:?}");
-        assert!(of_light(&run).starts_with("vextract: which light it was is to be found"), "{}", run.stderr);
+        assert!(of_light(&run).starts_with("vextract: vestimate will look for the light"), "{}", run.stderr);
         assert!(run.stderr.contains(why), "{picture}: {}", run.stderr);
         let told = folder.sh(&format!("{SETUP}\n{picture}; sh extract --illuminant A"));
         assert_eq!(illuminant(&told), "A", "{picture}");
@@ -109,10 +109,10 @@ fn suns_and_skies_of_the_command_line() {
             1,
             "below the horizon",
         ),
-        ("vforward scene.json --reflectance 0.5 --illuminant sun:98,11,2026-06-21T12:00Z", 1, "is no place"),
-        ("vforward scene.json --reflectance 0.5 --illuminant sun:48,11,noon", 1, "'noon' is no time"),
-        ("vforward scene.json --reflectance 0.5 --illuminant sun:Paris", 1, "no place and time"),
-        ("vforward scene.json --reflectance 0.5 --sky-illuminant sky", 2, "the sky of which sun?"),
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:98,11,2026-06-21T12:00Z", 1, "not a place"),
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:48,11,noon", 1, "'noon' is not a time"),
+        ("vforward scene.json --reflectance 0.5 --illuminant sun:Paris", 1, "not a place and time"),
+        ("vforward scene.json --reflectance 0.5 --sky-illuminant sky", 2, "'sky' needs a sun"),
         ("vkernel --sky sun:95deg", 2, "below the horizon"),
     ] {
         let run = folder.sh(line);

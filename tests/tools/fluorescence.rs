@@ -148,7 +148,7 @@ fn what_says_nothing_of_a_matrix_is_refused_in_one_line() {
     for (flags, want) in [
         (format!("{short} bright.csv --illuminant D50 --illuminant D65"), "give one --illuminant"),
         ("--donaldson bright.csv".to_owned(), "its samples cover 400..550 nm"),
-        (format!("{short} r.csv"), "column 'r' is not called by a wavelength of excitation"),
+        (format!("{short} r.csv"), "the name of column 'r' is not an excitation wavelength"),
         (format!("{short} bright.csv --reference-panel 0.9"), "cannot be used with"),
     ] {
         let run = folder.sh(&format!("vforward scene.json {flags}"));
@@ -220,7 +220,7 @@ fn a_brightener_is_told_from_what_is_reflected() {
             .map(|(f, truth)| rmse(estimate, f, truth));
         assert!(of_reflected < 0.04 && of_total < 0.04, "{exposure}: {of_reflected} {of_total}");
         let verdict = estimate["verdict"]["because"].as_str().unwrap();
-        assert!(verdict.contains("the sheet is brightened"), "{verdict}");
+        assert!(verdict.contains("the sheet contains a brightener"), "{verdict}");
         folder.sh(&format!("vestimate -q {exposure} brightened.ndjson --spectra both.csv -o both.ndjson"));
         let header = fs::read_to_string(folder.path().join("both.csv")).unwrap();
         let columns: Vec<&str> = header.lines().next().unwrap().split(',').collect();
@@ -288,7 +288,7 @@ fn light_comes_through_a_sheet_unless_it_is_backed() {
     // what nothing comes through is the same either way, and the scene says what it was taken to be
     let [open, backed] =
         ["", "--backed"].map(|flag| estimated(&folder, "sheet1.ndjson", &format!("--exposure 1 {flag}")));
-    assert!(because(&open).starts_with("facets within") && because(&open) == because(&backed));
+    assert!(because(&open).starts_with("model and facets") && because(&open) == because(&backed));
     let run = folder.sh("vestimate -q --exposure 1 --backed sheet0.ndjson | vestimate -q --exposure 1");
     let [scene, record] = [0, 1].map(|n| run.stdout.lines().nth(n).unwrap());
     assert_eq!(serde_json::from_str::<Value>(scene).unwrap()["backed"], true);

@@ -39,7 +39,7 @@ const SHEET: &str = "vkernel --angle-deg 180 --facets 1x1 | vforward --reflectan
 
 #[test]
 fn facets_that_no_sheet_has_are_refused() {
-    let unexplained = "% of the light is not what any reflectance gives; check exposure";
+    let unexplained = "% of the light; check exposure, noise, angle";
     for (seen, flags, says) in [
         (format!("{FOLD} --exposure 10"), "--exposure 1", unexplained),
         (format!("{FOLD} --exposure 1e3 --noise-sd 1"), "--exposure 1", unexplained),
@@ -52,7 +52,7 @@ fn facets_that_no_sheet_has_are_refused() {
         (format!("{FOLD} --exposure 1e-300"), "", "no light in any facet"),
         (format!("{FOLD} --exposure 1e300"), "", "cannot be the value of a facet"),
         ("vkernel | vforward --reflectance 0".to_owned(), "", "no light in any facet"),
-        (SHEET.to_owned(), "--method khan --exposure free", "a flat sheet does not tell it"),
+        (SHEET.to_owned(), "--method khan --exposure free", "a flat sheet does not reveal it"),
     ] {
         let sample = estimated(&seen, flags);
         let error = sample["error"].as_str().unwrap_or("");

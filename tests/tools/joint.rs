@@ -134,7 +134,7 @@ fn a_plan_says_which_second_picture_helps_most() {
     let beside = |n: usize| plans[n]["with_photograph"]["angle_deg"].as_f64();
     assert_eq!([0, 2, 4].map(beside), [None, Some(45.0), None]);
     assert!(
-        run.stderr.contains("--join: a plan joins the first scene with each of the others"),
+        run.stderr.contains("--join: --plan joins the first scene with each of the others"),
         "{}",
         run.stderr
     );
@@ -255,7 +255,7 @@ fn records_name_their_sheet() {
         ! ls failed.ndjson"#
     ));
     assert!(run.stderr.contains("--join: no record has the id none"), "{}", run.stderr);
-    assert!(run.stderr.contains("sheet-45 has none; it names the sheet for --join"), "{}", run.stderr);
+    assert!(run.stderr.contains("missing in sheet-45, where --join needs it"), "{}", run.stderr);
     let samples = samples(&run);
     let joined = |n: usize| samples[n]["estimate"]["joined"].as_array().map_or(0, Vec::len);
     assert_eq!([0, 1, 2, 3, 4].map(joined), [2, 2, 0, 2, 2]);

@@ -138,13 +138,13 @@ fn what_cannot_be_the_known_fold_is_refused() {
         ("gone.ndjson=0.5", 1, "gone.ndjson"),
         ("card-D65.ndjson=cc24", 2, "is a set"),
         ("card-D65.ndjson=short.csv", 1, "its samples cover"),
-        ("scene.ndjson=0.5", 1, "no sample"),
+        ("scene.ndjson=0.5", 1, "no scene followed by a sample"),
         ("chips-D65.ndjson=0.5", 1, "second sample"),
         ("no-facets.ndjson=0.5", 1, "facet_rgb"),
         ("nikon.ndjson=0.5", 2, "one camera"),
         ("bands.ndjson=0.5", 2, "wavelengths"),
-        ("card-A.ndjson=0.5", 2, "light is not that of the samples"),
-        ("card-D65.ndjson=0.5 --prior smooth", 2, "under a prior alone"),
+        ("card-A.ndjson=0.5", 2, "in its light"),
+        ("card-D65.ndjson=0.5 --prior smooth", 2, "needs a prior"),
         ("card-D65.ndjson=0.5 --join", 2, "--join"),
     ] {
         let run = folder.sh(&format!("vestimate chips-D65.ndjson --known-fold {known}"));

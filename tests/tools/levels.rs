@@ -102,7 +102,7 @@ fn numbers_that_end_below_white_are_clipped_there() {
         "cut.tif",
         "",
     );
-    assert!(run.status == 1 && run.stderr.contains("its numbers end at 4096 in R, G and B"), "{run:?}");
+    assert!(run.status == 1 && run.stderr.contains("its numbers are clipped at 4096 in R, G"), "{run:?}");
 }
 
 #[test]
@@ -116,10 +116,7 @@ fn a_black_level_that_was_not_subtracted_shows() {
         let run = extract(&folder, &make, "black.tif", "");
         assert!(run.status == 0 && run.stderr.contains("--black-level auto"), "{what}: {run:?}");
         let (level, because) = verdict(&folder);
-        assert!(
-            level != "good" && because.contains("black was not subtracted"),
-            "{what}: {level}: {because}"
-        );
+        assert!(level != "good" && because.contains("black was probably not"), "{what}: {level}: {because}");
         let run = extract(&folder, "", "black.tif", "--black-level auto");
         assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{what}");
         let black = sample(&folder)["image"]["black_level"].clone();
@@ -145,7 +142,7 @@ fn noise_tells_a_curve_and_a_matrix() {
         (
             "a matrix",
             "--mulc 2,1,1.5 --ccmatrix 1.7,-0.15,0.05,-0.6,1.65,-0.55,-0.1,-0.5,1.5 --mulc 0.5",
-            "a matrix mixed them",
+            "matrix mixed them",
             "matrix",
         ),
     ] {

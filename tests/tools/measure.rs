@@ -95,7 +95,7 @@ fn nobody_waits_for_a_page_that_nobody_sees() {
         let said = format!("{}{}", ended.stdout, ended.stderr);
         assert_eq!(said.lines().count(), 1, "{call}: {ended:?}");
         for part in
-            ["corners are found to 9", "vextract --pick 'photo.jpg' >corners.json", "--regions corners.json"]
+            ["corners are only 9", "vextract --pick 'photo.jpg' >corners.json", "--regions corners.json"]
         {
             assert!(said.contains(part), "{call}: {ended:?}");
         }
@@ -148,10 +148,10 @@ fn a_wrong_call_is_refused_before_anything_is_measured() {
         ("", "usage: vfold-measure", 2),
         ("--lens x", "there is no such option", 2),
         ("photo.exr --camera", "a value is missing", 2),
-        ("none.exr photo.exr no.tif", "no such file, or not to be read: none.exr, no.tif\n", 1),
+        ("none.exr photo.exr no.tif", "missing or unreadable: none.exr, no.tif\n", 1),
         (
             "photo.exr --regions no.json --known-fold no.ndjson=cc24:red",
-            "not to be read: no.json, no.ndjson\n",
+            "unreadable: no.json, no.ndjson\n",
             1,
         ),
         ("photo.exr --camera canon-5d-mk2", "did you mean canon-5d-mark-ii", 2),

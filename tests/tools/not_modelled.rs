@@ -24,7 +24,7 @@ fn a_panel_that_is_shorter_is_said() {
     assert_eq!(run.stdout, "\"level\":\"wrong\"\n");
     assert_said(
         &run,
-        &["this is no ideal fold. Real-sheet effects cannot be modelled here (one panel \
+        &["this is not an ideal fold. Real-sheet effects cannot be modelled here (one panel \
            is deeper than the other)"],
     );
     let quiet = folder.sh("vestimate -q short.ndjson | grep -c bihemispherical_albedo");

@@ -81,8 +81,8 @@ fn layouts_of_tiff_are_read_or_refused_by_name() {
         (run.status, run.stderr.as_str()),
         (
             1,
-            "vextract: last.tif: its first page is 40 x 30 px, and a later one 80 x 60 px; \
-             save the page that is meant by itself\n"
+            "vextract: last.tif: its first page is 40 x 30 px, but a later one 80 x 60 px; \
+             save the intended page alone\n"
         )
     );
     for (how, why) in [("-d uint32", "integers of 32 bits"), ("-d uint8 --compression jpeg", "YCbCr")] {
@@ -153,7 +153,8 @@ fn replaced_pictures_are_measured_again() {
     );
     let again = |name: &str| {
         format!(
-            "vextract: {name} was replaced since it was measured: it is measured again, and what follows it\n"
+            "vextract: {name} has changed since it was measured: it and all later photographs are measured \
+             again\n"
         )
     };
     assert_eq!((run.status, run.stderr), (0, again("2.tif") + &again("1.tif")));
@@ -212,8 +213,8 @@ fn another_camera_in_exif_is_said_and_a_doubt() {
     let (said, because) = of("Canon", "Canon EOS R5", "--camera nikon-d850 --quiet");
     assert_eq!(
         said,
-        "vextract: warning: EXIF of a.tif says Canon Canon EOS R5, and its colours are taken for those \
-         of nikon-d850: expect a wrong spectrum; give --camera canon-eos-r5, or none\n"
+        "vextract: warning: a.tif: its EXIF names Canon Canon EOS R5, but the sensitivities used are those \
+         of nikon-d850: expect a wrong spectrum; give --camera canon-eos-r5, or leave --camera out\n"
     );
     assert!(
         because.contains("EXIF says that Canon Canon EOS R5 took the picture, not nikon-d850"),

@@ -126,8 +126,8 @@ refused(vfold.Error, lambda: vfold.measure('photo.exr'))",
         "vextract: no camera is called 'canon-5d-mk2'",
         "vkernel: photo.exr: there is no sheet",
         "measure() does not know cam; it takes angle_deg,",
-        "panel0 and panel1 do not give their angle",
-        "panel0: four corners of two numbers are wanted, not shape (3,)",
+        "panel0 and panel1 do not state the angle",
+        "panel0: four corners of two numbers are needed, not shape (3,)",
         "vextract is not on PATH",
     ];
     let lines: Vec<&str> = printed.lines().collect();

@@ -341,7 +341,7 @@ fn opcodes_that_are_not_applied_are_refused_by_name() {
         (51022, 10, 0, "DeltaPerRow in OpcodeList3"),
         (51022, 1, 0, "WarpRectilinear in OpcodeList3"),
         (51022, 77, 0, "opcode 77 in OpcodeList3"),
-        (51009, 9, 1, "GainMap in OpcodeList2 makes no sense"),
+        (51009, 9, 1, "GainMap in OpcodeList2 is invalid"),
     ] {
         let message = refusal(&Dng::new(8, even(8, 8)).with(tag, 1, &list(opcode, is_optional)));
         assert!(message.contains(says), "{message}");

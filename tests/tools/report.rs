@@ -90,7 +90,7 @@ fn what_was_found_is_said_with_how_sure_it_is() {
     );
     let page = Document::parse(body(&page)).unwrap();
     let sure = 100.0 * records(&folder)[1]["image"]["detection_confidence"].as_f64().unwrap();
-    let found = &table(&page, "Found or assumed, not stated")[1..];
+    let found = &table(&page, "Detected or assumed, not stated")[1..];
     assert_eq!(
         found[0],
         [
@@ -316,7 +316,7 @@ fn pictures_are_those_of_the_command_line() {
     refused(
         "three.ndjson --report out.html --overlay over-red.png",
         2,
-        "no sample is called as over-red.png is",
+        "no sample has the name of over-red.png",
     );
     // one of one may be called anything
     let drawn = folder.sh("vscore one.ndjson --report one.html --overlay over-blue.png > /dev/null; \

@@ -32,7 +32,7 @@ fn a_preview_is_no_photograph() {
         let run = extract(&folder, picture, &format!("--illuminant D65 {PANELS}"));
         assert_eq!(run.status, 1, "{run:?}");
         assert!(
-            run.stderr.ends_with("give the photograph itself\n") && run.stderr.contains(picture),
+            run.stderr.ends_with("give the original photograph\n") && run.stderr.contains(picture),
             "{run:?}"
         );
     }

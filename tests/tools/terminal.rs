@@ -68,7 +68,7 @@ fn a_long_solution_says_that_it_is_at_work() {
         "/tests/data/shapes/corner.obj'; } > slow.obj &"
     );
     let shown = plain(&on_terminal(slow, "vkernel --shape slow.obj --mesh facets -o out.json").stdout);
-    assert!(shown.contains("vkernel: at work for 1s"), "{shown:?}");
+    assert!(shown.contains("vkernel: running for 1s"), "{shown:?}");
 }
 
 /// Lines about samples stand above that of the progress, not in it.
@@ -147,7 +147,7 @@ fn help_is_coloured_on_a_terminal_alone() {
 #[test]
 fn verdicts_stand_at_the_end() {
     let shown = plain(&on_terminal("", "vestimate samples.ndjson -o out.ndjson").stdout);
-    assert!(shown.contains("vestimate: cc24:red: good: facets within "), "{shown:?}");
+    assert!(shown.contains("vestimate: cc24:red: good: model and facets "), "{shown:?}");
     assert!(shown.contains("the light D65 and the camera canon-5d-mark-ii"), "{shown:?}");
     let many =
         "vforward scene.json --reflectance munsell --noise-sd 1e-3 2>/dev/null | head -n 40 > many.ndjson";

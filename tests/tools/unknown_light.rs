@@ -115,10 +115,10 @@ fn what_needs_a_light_refuses_one_that_is_unknown() {
             "vforward --reflectance 0.5 --illuminant unknown scene.json",
             "vforward computes what a camera sees",
         ),
-        ("vestimate photo.ndjson --prior smooth", "the light is unknown"),
-        ("vestimate photo.ndjson --join", "the light is unknown"),
-        ("vestimate photo.ndjson --illuminant D65", "scenes have a light"),
-        ("vestimate --plan scene.json --illuminant unknown", "no light to plan in"),
+        ("vestimate photo.ndjson --prior smooth", "an unknown light is found only"),
+        ("vestimate photo.ndjson --join", "an unknown light is found only"),
+        ("vestimate photo.ndjson --illuminant D65", "scenes already have a light"),
+        ("vestimate --plan scene.json --illuminant unknown", "cannot be used with --plan"),
     ] {
         let run = folder.sh(line);
         assert_ne!(run.status, 0, "{line}");

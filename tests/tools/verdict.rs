@@ -51,7 +51,7 @@ fn judged(what: &str, told: StatedScene) -> Judged {
             --illuminant {light} --refine \\
             --panel0 '{panel0}' --panel1 '{panel1}' | vestimate {flags} | vscore --truth '{truth}'"
     ));
-    if run.stderr.contains("not what any reflectance gives; check exposure, noise, angle, corners") {
+    if run.stderr.contains("% of the light; check exposure, noise, angle, corners") {
         let (level, because) = ("refused".to_owned(), run.stderr);
         return Judged { rmse: f64::NAN, within_two_sd: 0.0, level, because, said: String::new() };
     }

@@ -71,18 +71,18 @@ pub struct Estimator<'a> {
 /// The paper's estimator fits no unknown of the scene other than the exposure.
 fn check_fit(args: &Args) -> Result<()> {
     if args.fit.contains(&EXPOSURE.flag) && args.exposure.is_some_and(|exposure| exposure != Exposure::Free) {
-        let problem = "exposure is given by --exposure already";
+        let problem = "--exposure already sets the exposure";
         return Err(Error::usage("--fit", problem, "leave one of them out"));
     }
     if let Some(alone) = args.fit.iter().find(|flag| [&AUTO, &NONE].contains(flag))
         && args.fit.len() > 1
     {
-        let problem = format!("{} stands alone", alone.value);
-        return Err(Error::usage("--fit", problem, "leave it or the others out"));
+        let problem = format!("{} cannot be combined with others", alone.value);
+        return Err(Error::usage("--fit", problem, "leave it out, or the others"));
     }
     if args.fit.iter().any(|flag| ![EXPOSURE.flag, &NONE].contains(flag)) && !args.has_prior() {
-        let problem = format!("nothing but exposure is fitted with --prior {}", args.prior());
-        return Err(Error::usage("--fit", problem, "leave --prior out or give spectra"));
+        let problem = format!("with --prior {} only the exposure can be fitted", args.prior());
+        return Err(Error::usage("--fit", problem, "leave --prior out, or name spectra"));
     }
     Ok(())
 }
@@ -103,8 +103,8 @@ fn method(args: &Args) -> Result<Method> {
             let classes = (spec == MUNSELL).then(classes::of_munsell);
             let spectra = args.common.reflectances(spec)?;
             if spectra.len() < 2 {
-                let problem = format!("'{spec}' is one spectrum, which tells nothing of others");
-                return Err(Error::usage("--prior", problem, "give a set or a file of two or more"));
+                let problem = format!("'{spec}' holds only one spectrum");
+                return Err(Error::usage("--prior", problem, "name a set or a file of two or more"));
             }
             Method::Map(Some((spectra, classes)))
         }
@@ -281,12 +281,12 @@ impl<'a> Estimator<'a> {
     fn lights_before(&self, camera: &CameraRecord, grid: &WavelengthGrid) -> Result<Vec<Candidate>> {
         let fits_scene = self.asked.fit.iter().any(|unknown| **unknown != EXPOSURE);
         if !self.asked.args.has_prior() || self.asked.args.join.is_some() || fits_scene {
-            let problem = "the light is unknown, and found under a prior alone, of each photograph \
-                           by itself, with nothing but exposure fitted";
+            let problem = "an unknown light is found only with a prior, for each photograph by itself, \
+                           and with no more fitted than the exposure";
             return Err(Error::usage(
                 "--illuminant",
                 problem,
-                "leave --prior, --method, --join and --fit out, or give vextract the light",
+                "leave --prior, --method, --join and --fit out, or state the light to vextract",
             ));
         }
         let lights = match &self.asked.args.illuminants {
@@ -311,7 +311,7 @@ impl<'a> Estimator<'a> {
                 let prior = self.asked.args.prior();
                 let problem =
                     format!("--plan and --join need error bars, which --prior {prior} does not give");
-                Err(Error::usage("--prior", problem, "leave --prior and --method out, or give spectra"))
+                Err(Error::usage("--prior", problem, "leave --prior and --method out, or name spectra"))
             }
         }
     }
@@ -369,7 +369,7 @@ impl<'a> Estimator<'a> {
         if !self.asked.args.common.quiet {
             let (id, reduced_chi) = (sample.id(), ideal.residual_rms);
             let text = format!(
-                "{id}: residual {reduced_chi:.1} times the noise: this is no ideal fold. \
+                "{id}: residual {reduced_chi:.1} times the noise: this is not an ideal fold. \
                  Real-sheet effects cannot be modelled here ({why}); errors may exceed the bars"
             );
             cli::say("vestimate", &text);

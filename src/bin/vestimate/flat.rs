@@ -52,15 +52,16 @@ pub enum MethodName {
 #[derive(Args)]
 #[command(next_help_heading = "Flat sheets")]
 pub struct MethodArgs {
-    /// From the bounces in a fold, or from the mean colour of a flat sheet (vkernel --angle-deg 180): Park
-    /// 2007, principal components and smoothness; Khan 2013, the components that sensors and lights see
+    /// Estimate from the bounces in a fold (interreflection), or from the mean colour of a flat sheet
+    /// (vkernel --angle-deg 180): park (2007), principal components and smoothness, or khan (2013), the
+    /// components that camera and lights can see
     #[arg(long, value_name = "METHOD", default_value = "interreflection", hide_possible_values = true)]
     pub method: MethodName,
-    /// Components that a spectrum is combined of
+    /// Number of components of a spectrum, 1 to 1000
     /// [default: 8 for park, 9 for khan, no more than channels times lights]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub components: Option<u16>,
-    /// Spectra that have the components [default: munsell]
+    /// Spectra from which the components are computed [default: munsell]
     #[arg(long, value_name = "SPEC")]
     pub basis: Option<String>,
 }
@@ -144,7 +145,7 @@ impl fmt::Display for FlatContext {
 /// Refuses flags that apply to flat sheets only.
 fn check_fold(args: &MethodArgs) -> Result<()> {
     let surplus = [("--components", args.components.is_some()), ("--basis", args.basis.is_some())];
-    refuse(surplus, "not known to --method interreflection", "give --method park or khan")
+    refuse(surplus, "not used by --method interreflection", "give --method park or khan")
 }
 
 /// Refuses flags that do not apply to flat sheets.
@@ -160,5 +161,5 @@ fn check_flat(args: &super::Args, name: &str) -> Result<()> {
         ("--trace", args.trace.is_some()),
         ("--plan", args.planning.plan),
     ];
-    refuse(surplus, &format!("not known to --method {name}"), "leave one of them out")
+    refuse(surplus, &format!("not used by --method {name}"), "leave one of them out")
 }

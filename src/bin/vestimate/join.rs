@@ -34,7 +34,7 @@ impl FromStr for Join {
 
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         if text.is_empty() {
-            return Err("write a field, or ids with commas between".to_owned());
+            return Err("write a field, or ids separated by commas".to_owned());
         }
         let ids: Vec<String> = text.split(',').map(composed).collect();
         Ok(match text {
@@ -59,7 +59,7 @@ impl Join {
             }
             Self::Field(field) => match sample.fields.text_at(field)? {
                 Some(sheet) => Ok(Some(sheet)),
-                None => Err(Error::field(field, format!("{id} has none; it names the sheet for --join"))),
+                None => Err(Error::field(field, format!("missing in {id}, where --join needs it"))),
             },
             Self::Ids(ids) => Ok(ids.contains(&id).then(|| ids.join(","))),
         }
@@ -72,16 +72,16 @@ impl Join {
 /// [`Error::Usage`] if flags request anything else.
 pub fn check(args: &Args) -> Result<()> {
     if !args.has_prior() {
-        let problem = "photographs are estimated together under a prior alone";
-        return Err(Error::usage("--join", problem, "leave --prior and --method out, or give spectra"));
+        let problem = "photographs are estimated together only with a prior";
+        return Err(Error::usage("--join", problem, "leave --prior and --method out, or name spectra"));
     }
     if args.exposure == Some(Exposure::Sum) {
-        let problem = "photographs that are estimated together have an exposure each";
-        return Err(Error::usage("--exposure", problem, "leave it out, or give free"));
+        let problem = "with --join each photograph has its own exposure";
+        return Err(Error::usage("--exposure", problem, "leave it out, or give 'free'"));
     }
     if args.planning.plan && !matches!(args.join, Some(Join::Id)) {
-        let problem = "a plan joins the first scene with each of the others";
-        return Err(Error::usage("--join", problem, "give --join alone"));
+        let problem = "--plan joins the first scene with each of the others";
+        return Err(Error::usage("--join", problem, "give --join without a value"));
     }
     Ok(())
 }
@@ -108,7 +108,7 @@ pub fn run(
         [id, ..] => Err(Error::usage(
             "--join",
             format!("no record has the id {id}"),
-            "give the ids as records have them",
+            "write the ids as in the records",
         )),
     }
 }
@@ -121,7 +121,7 @@ pub fn check_wavelengths(one: &Context, other: &Context) -> Result<()> {
     if one.grid.wavelengths_nm() == other.grid.wavelengths_nm() {
         return Ok(());
     }
-    let problem = "photographs of one sheet have different wavelengths; give all scenes the same";
+    let problem = "photographs of one sheet have different wavelengths; use the same for all scenes";
     Err(Error::field("wavelengths_nm", problem))
 }
 
@@ -141,7 +141,7 @@ impl Estimator<'_> {
             let problem = format!("{}: {why}; only photographs of folds are estimated together", sample.id());
             Error::field("id", problem)
         };
-        let fold = context.fold.as_deref().ok_or_else(|| alone("the scene is no fold".to_owned()))?;
+        let fold = context.fold.as_deref().ok_or_else(|| alone("the scene is not a fold".to_owned()))?;
         let rgb = sample.facet_rgb()?;
         let sd = self.asked.noise(sample)?.deviations(context.model.facets(), &rgb)?;
         let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
@@ -152,7 +152,7 @@ impl Estimator<'_> {
         match photograph.parts.take() {
             Some(Ok(parts)) => Ok((parts, (rgb, sd, photograph))),
             Some(Err(why)) => Err(alone(why.to_string())),
-            None => Err(alone("its exposure is by sums".to_owned())),
+            None => Err(alone("its exposure is normalised by sums".to_owned())),
         }
     }
 }

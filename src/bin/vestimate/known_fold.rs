@@ -53,8 +53,8 @@ impl KnownFold {
     pub fn of(args: &Args) -> Result<Option<Self>> {
         let Some((path, spec)) = &args.known_fold else { return Ok(None) };
         if !args.has_prior() {
-            let problem = "a known fold is weighed under a prior alone";
-            return Err(Error::usage(FLAG, problem, "leave --prior and --method out, or give spectra"));
+            let problem = "a known fold needs a prior";
+            return Err(Error::usage(FLAG, problem, "leave --prior and --method out, or name spectra"));
         }
         let spectrum = args.common.one_reflectance(FLAG, spec)?;
         let mut reader = Reader::open(path)?;
@@ -66,7 +66,7 @@ impl KnownFold {
                     sample.facet_rgb().map_err(|e| reader.at(e))?;
                     let is_second = found.replace((scene.clone(), sample)).is_some();
                     if is_second {
-                        let problem = "a second sample; give the fold of the known sheet alone";
+                        let problem = "a second sample; keep only that of the known sheet";
                         return Err(reader.at(Error::field("kind", problem)));
                     }
                 }
@@ -74,7 +74,7 @@ impl KnownFold {
             }
         }
         let Some((Some(scene), sample)) = found else {
-            let problem = "no sample below a scene; give what vforward or vextract writes of the fold";
+            let problem = "no scene followed by a sample; give the output of vforward or vextract";
             return Err(reader.at(Error::field("kind", problem)));
         };
         if let Some(problem) = sample.error().map_err(|e| reader.at(e))? {
@@ -171,14 +171,14 @@ impl KnownFold {
             return Err(self.other("wavelengths", "give both scenes the same"));
         }
         if camera.sensitivities != samples.camera.sensitivities {
-            let what = format!("a camera, {}, that is not the samples' {}", camera.name, samples.camera.name);
-            return Err(wrong(&self.path, &what, "take both with one camera"));
+            let what = format!("its camera is {}, that of the samples {}", camera.name, samples.camera.name);
+            return Err(wrong(&self.path, &what, "use one camera for both"));
         }
         let is_known_unlit = self.scene.is_light_unknown().map_err(|e| self.at(&e))?;
         if !is_unknown && !is_known_unlit {
             let own = self.scene.illuminants().map_err(|e| self.at(&e))?;
             if !own.iter().map(|one| &one.power).eq(samples.illuminants.iter().map(|one| &one.power)) {
-                return Err(self.other("light", "state the same of both, or leave it unknown in both"));
+                return Err(self.other("light", "state the same light for both, or leave both unknown"));
             }
         }
         let mut lit = self.scene.clone();
@@ -200,7 +200,8 @@ impl KnownFold {
         if sample.is_photograph() != self.is_photograph() {
             let [own, known] = [sample, &self.sample]
                 .map(|one| if one.is_photograph() { "photographed" } else { "computed" });
-            let problem = format!("the sample is {own}, the known fold {known}; take or compute both");
+            let problem =
+                format!("the sample is {own}, the known fold {known}; photograph both or compute both");
             return Err(Error::field("image", problem));
         }
         if exposure != Exposure::Free || sample.is_photograph() {
@@ -218,11 +219,11 @@ impl KnownFold {
     }
 
     fn other(&self, what: &str, remedy: &str) -> Error {
-        wrong(&self.path, &format!("its {what} is not that of the samples"), remedy)
+        wrong(&self.path, &format!("its scene differs from that of the samples in its {what}"), remedy)
     }
 
     fn at(&self, error: &Error) -> Error {
-        wrong(&self.path, &error.to_string(), "give a fold as vforward or vextract writes it")
+        wrong(&self.path, &error.to_string(), "give a fold in the format of vforward and vextract")
     }
 }
 

@@ -54,11 +54,13 @@ struct Args {
     /// khan; auto: as the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]
     #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = settings::smoothness)]
     smoothness: Option<Smoothness>,
-    /// Standard deviation of every facet; auto: from the samples, else from what no reflectance explains
+    /// Standard deviation of the noise of every facet, on the scale of its value; auto: from the samples,
+    /// else from what no reflectance explains
     #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true,
         value_parser = settings::noise_sd)]
     noise_sd: NoiseSd,
-    /// Error of the model, relative to a facet's value [default: 3e-4 for photographs, 0 for computed facets]
+    /// Error of the model, relative to a facet's value, 0 to 1 [default: 3e-4 for photographs, 0 for computed
+    /// facets]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     model_error: Option<f64>,
     /// Pixel value of a perfect white diffuser facing the sun; free: fit it; sum: normalise by sums, as
@@ -84,7 +86,7 @@ struct Args {
     #[arg(long, value_name = "FILE=SPEC", value_parser = known_fold::file_and_spec,
         conflicts_with_all = ["join", "plan"])]
     known_fold: Option<(String, String)>,
-    /// The sheet is backed by black card or its like: no light comes through it from behind
+    /// The sheet is backed by black card or the like: no light comes through it from behind
     #[arg(long)]
     backed: bool,
     /// Panel 1 is a card of this reflectance [default: the scene's]
@@ -93,7 +95,7 @@ struct Args {
     /// Initial reflectance [default: the prior mean; 0.5 for --prior smooth and none]
     #[arg(long, value_name = "SPEC|X")]
     start: Option<String>,
-    /// Draw estimates with their error bands, true spectra, the sheets' look under D65, flat and folded,
+    /// Draw estimates with their error bands, true spectra, the sheets' colours under D65, flat and folded,
     /// and the residuals of a single sheet; for 8 to 60 samples, a small chart each; -: spectra of the
     /// first seven on standard error, in characters as wide as the terminal
     #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
@@ -101,7 +103,7 @@ struct Args {
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27
     #[arg(long, value_name = "FILE.csv|.sp|.spdx")]
     spectra: Option<PathBuf>,
-    /// Write the iterations of every estimate, one JSON record a line
+    /// Write the iterations of every estimate, one JSON record per line
     #[arg(long, value_name = "FILE", conflicts_with = "resume")]
     trace: Option<PathBuf>,
     #[command(flatten)]

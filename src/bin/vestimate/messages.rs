@@ -39,7 +39,7 @@ impl Deviations {
 
 impl fmt::Display for Deviations {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "facets to {:.1e} (noise from {}", self.rms(), self.noise_from)?;
+        write!(f, "facets known to {:.1e} (noise from {}", self.rms(), self.noise_from)?;
         if self.model_error > 0.0 {
             write!(f, ", model {:.1e} of the value", self.model_error)?;
         }
@@ -50,14 +50,14 @@ impl fmt::Display for Deviations {
 /// The numbers of facet values before and after compression.
 pub fn size(data: &FacetData) -> String {
     let (left, values) = data.size();
-    format!("{values} values as {left}")
+    format!("{values} values compressed to {left}")
 }
 
 /// The result, in one line.
 pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
     let ended = match estimate.termination {
         Termination::Converged { .. } => "converged",
-        Termination::IterationLimit => "stopped at the limit",
+        Termination::IterationLimit => "stopped at the iteration limit",
         Termination::NoProgress { .. } => "stopped without progress",
     };
     let sd = estimate.reflectance_sd();
@@ -83,7 +83,7 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
     });
     let sd = sd.map(|sd| {
         let (mean, most) = (sd.iter().sum::<f64>() / sd.len() as f64, sd.iter().copied().fold(0.0, f64::max));
-        format!("reflectance to {mean:.4}, at worst {most:.4}")
+        format!("reflectance known to {mean:.4}, at worst {most:.4}")
     });
     [iterations, reduced_chi]
         .into_iter()

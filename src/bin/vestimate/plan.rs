@@ -37,10 +37,10 @@ pub struct PlanArgs {
     #[arg(long, value_name = "SPEC", requires = "scene without a camera")]
     pub camera: Option<String>,
     /// Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward
-    /// [default: D65]; unknown: forget what scenes say of theirs, and find it
+    /// [default: D65]; unknown: ignore the illuminants of the scenes, and find them
     #[arg(long, value_name = "SPEC", value_parser = cli::light)]
     pub illuminant: Vec<String>,
-    /// Illuminant of its sky [default: that of the sun]
+    /// Illuminant of the sky of a scene that has none [default: the same as the sun's]
     #[arg(long, value_name = "SPEC", requires = "scene without a camera", value_parser = cli::light)]
     pub sky_illuminant: Option<String>,
 }
@@ -94,8 +94,8 @@ impl PlanArgs {
         if self.plan || has_kernel {
             return match is_unknown {
                 true => {
-                    let problem = format!("'{UNKNOWN_LIGHT}' is no light to plan in, or for a kernel");
-                    Err(Error::usage("--illuminant", problem, "give the light"))
+                    let problem = format!("'{UNKNOWN_LIGHT}' cannot be used with --plan or --kernel");
+                    Err(Error::usage("--illuminant", problem, "name the light"))
                 }
                 false => Ok(false),
             };
@@ -104,11 +104,11 @@ impl PlanArgs {
             [] => Ok(false),
             [_] if is_unknown => Ok(true),
             _ => {
-                let problem = "scenes have a light; only one without a camera is given another";
+                let problem = "the scenes already have a light";
                 Err(Error::usage(
                     "--illuminant",
                     problem,
-                    "leave it out, give unknown, or --plan or --kernel",
+                    "leave it out, give 'unknown', or add --plan or --kernel",
                 ))
             }
         }
@@ -119,11 +119,11 @@ impl PlanArgs {
         if scene.has_camera() {
             let flags = [&self.camera, &self.sky_illuminant];
             if flags.iter().any(|flag| flag.is_some()) || !self.illuminant.is_empty() {
-                let problem = "the scene has a camera and an illuminant already";
+                let problem = "the scene already has a camera and an illuminant";
                 return Err(Error::usage(
                     "--camera",
                     problem,
-                    "leave these flags out, or plan with vkernel's scene",
+                    "leave these flags out, or plan with a scene from vkernel",
                 ));
             }
             return Ok(());
@@ -159,7 +159,7 @@ impl PlanArgs {
                 let sd = deviations(rgb, |_| noise_sd, estimator.args().model_error.unwrap_or(0.0));
                 let measured = Measured { rgb, sd: &sd };
                 photographed.planned(&measured, exposure.known())?.map_err(|why| {
-                    Error::field("geometry", format!("{why}; real sheets are planned of other folds alone"))
+                    Error::field("geometry", format!("{why}; plan this fold without --fit auto"))
                 })
             };
             Sheets::Real(facets.par_iter().map(parts).collect::<Result<_>>()?)

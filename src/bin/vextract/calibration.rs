@@ -18,19 +18,19 @@ use super::{facing, paper};
 #[derive(Args)]
 #[command(next_help_heading = "Calibration")]
 pub struct CalibrationArgs {
-    /// Value of a perfect white diffuser facing the sun, in its strongest channel, if known
+    /// Value of a perfect white diffuser facing the sun, in its strongest channel, above 0, if known
     #[arg(long, value_name = "X", conflicts_with_all = ["chart", "white_region"],
         allow_negative_numbers = true)]
     exposure: Option<f64>,
     /// Reflectances of the chart's patches, row by row
     #[arg(long, value_name = "SPEC", default_value = "cc24", requires = "chart_place")]
     chart_reference: String,
-    /// Patches of the chart
+    /// Rows and columns of patches of the chart
     #[arg(long, value_name = "ROWSxCOLS", default_value = "4x6", requires = "chart_place",
         value_parser = cli::pair::<usize>)]
     chart_grid: (usize, usize),
-    /// Cosine of the angle between the sun and the chart's normal; 1: the chart faces the sun, unlike the
-    /// panels
+    /// Cosine of the angle between the sun and the chart's normal, above 0 to 1; 1: the chart faces the
+    /// sun, unlike the panels
     #[arg(
         long,
         value_name = "X",
@@ -47,7 +47,7 @@ pub struct CalibrationArgs {
     /// shows the exposure to 6 %
     #[arg(long, value_name = "SPEC", requires = "white_place")]
     white_reflectance: Option<String>,
-    /// Cosine of the angle between the sun and the white card's normal
+    /// Cosine of the angle between the sun and the normal of card or paper, above 0 to 1
     #[arg(
         long,
         value_name = "X",
@@ -66,11 +66,11 @@ impl CalibrationArgs {
     /// [`Common::reflectances`].
     pub fn resolved(&self, grid: &WavelengthGrid, common: &Common) -> Result<ResolvedCalibration> {
         if let Some(x) = self.exposure.filter(|x| !(*x > 0.0 && x.is_finite())) {
-            return Err(Error::usage("--exposure", format!("{x} gives no picture"), "give a number above 0"));
+            return Err(Error::usage("--exposure", format!("{x} is out of range"), "give a number above 0"));
         }
         for (flag, cos) in [("--chart-cos", self.chart_cos), ("--white-cos", self.white_cos)] {
             if !(cos > 0.0 && cos <= 1.0) {
-                let problem = format!("{cos} is no cosine of an angle at which the sun shines on it");
+                let problem = format!("{cos} is out of range: the sun must shine on the target");
                 return Err(Error::usage(flag, problem, "give a number above 0, at most 1"));
             }
         }
@@ -78,11 +78,11 @@ impl CalibrationArgs {
         let (rows, cols) = self.chart_grid;
         if rows.checked_mul(cols) != Some(chart.len()) {
             let (reference, count) = (&self.chart_reference, chart.len());
-            let problem = format!("{rows}x{cols} are not the {count} patches of '{reference}'");
+            let problem = format!("{rows}x{cols} does not match the {count} patches of '{reference}'");
             return Err(Error::usage(
                 "--chart-grid",
                 problem,
-                "give its rows x columns, or --chart-reference",
+                "give ROWSxCOLS of the chart, or --chart-reference",
             ));
         }
         let white = |reflectance: &String| {
@@ -133,7 +133,7 @@ impl ResolvedCalibration {
                 Ok(Some((target, corners)))
             }
             _ => {
-                let problem = "two of chart, white card and --exposure say what the numbers are worth";
+                let problem = "chart, white card and --exposure each set the exposure, and two are stated";
                 Err(Error::usage("--regions", problem, "keep one of them"))
             }
         }
@@ -190,8 +190,8 @@ impl ResolvedCalibration {
         if regions.chart_confidence.is_some()
             && let Some(turned_deg) = facing::turned_deg(&setting, regions, lens, target.cos())?
         {
-            let problem = format!("the chart is turned from the sun by {turned_deg:.0}° or more");
-            let remedy = "give what --find prints as --regions, and --chart-cos";
+            let problem = format!("the chart faces {turned_deg:.0}° or more away from the sun");
+            let remedy = "give the output of --find as --regions, and state --chart-cos";
             return Err(Error::picture(path, problem, remedy));
         }
         let view = View { path, photograph, light: &light, lens };
@@ -202,7 +202,7 @@ impl ResolvedCalibration {
 /// The light on a target.
 fn light(scene: &Scene) -> Result<OpenLight> {
     if scene.is_light_unknown()? {
-        let problem = "a chart or card is worth what its light is, which is unknown";
+        let problem = "a chart or card cannot calibrate in unknown light";
         return Err(Error::usage("--illuminant", problem, "give the light, or leave chart and card out"));
     }
     Setting::of(scene)?.open_light()

@@ -21,12 +21,12 @@ pub fn other_than(camera: &str, path: &Path, photograph: &Photograph) -> Option<
     let (make, model) = &photograph.info().camera.called();
     spectrum::is_other_camera(camera, make, model).then(|| {
         let instead = match spectrum::camera_by_exif(make, model) {
-            Some(known) => format!("give --camera {known}, or none"),
-            None => "leave out --camera, or give the curves of that camera".to_owned(),
+            Some(known) => format!("give --camera {known}, or leave --camera out"),
+            None => "leave --camera out, or give a file of that camera's sensitivities".to_owned(),
         };
         let (path, taken_by) = (path.display(), format!("{make} {model}").trim().to_owned());
         format!(
-            "warning: EXIF of {path} says {taken_by}, and its colours are taken for those of {camera}: \
+            "warning: {path}: its EXIF names {taken_by}, but the sensitivities used are those of {camera}: \
              expect a wrong spectrum; {instead}"
         )
     })

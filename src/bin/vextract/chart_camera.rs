@@ -34,7 +34,7 @@ pub fn save(
         ));
     }
     if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
-        return Err(Error::usage(FLAG, format!("'{}' names no table", file.display()), "end it in .csv"));
+        return Err(Error::usage(FLAG, format!("'{}' is not a .csv file", file.display()), "end it in .csv"));
     }
     check_ending(file)?;
     let path = &images[0];
@@ -43,9 +43,9 @@ pub fn save(
         None => first?,
     };
     let (optics, assumed) = light::optics(&args.optics, path, Some(&photograph));
-    optics.known_illuminants("curves are made of a chart in a light that is known: give that")?;
+    optics.known_illuminants("sensitivities are computed from the light on the chart: state it")?;
     let illuminant =
-        args.common.illuminant(optics.one_illuminant("give one: a photograph has one light")?)?;
+        args.common.illuminant(optics.one_illuminant("name one: a photograph has one light")?)?;
     let grid = &optics.wavelengths_nm;
     let power = illuminant.on(grid, Outside::Refuse)?;
     let lens = args.placing.lens(&photograph)?;
@@ -79,8 +79,8 @@ fn note(file: &Path, light: &str, camera: &ChartCamera) -> String {
     let all = camera.sensitivities_sd.iter().flatten();
     let sd = (all.clone().map(|sd| sd * sd).sum::<f64>() / all.count() as f64).sqrt();
     format!(
-        "{}: curves by the chart in {light}, patches within {:.1} %, standard deviation {:.1} % \
-         of green's peak in the mean; give it as --camera",
+        "{}: sensitivities from the chart in {light}; the patches fit to {:.1} %, the mean standard \
+         deviation is {:.1} % of green's peak; use the file with --camera",
         file.display(),
         100.0 * camera.residual,
         100.0 * sd

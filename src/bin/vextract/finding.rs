@@ -88,7 +88,7 @@ pub fn find(
         return Err(unsure(path, found.confidence));
     }
     if !args.common.quiet {
-        let line = format!("{}: corners found, to {:.1} % sure", path.display(), 100.0 * found.confidence);
+        let line = format!("{}: corners found, {:.1} % sure", path.display(), 100.0 * found.confidence);
         cli::say("vextract", &line);
     }
     let angle = seen(args, photograph, lens).angle(&found.panels);
@@ -128,8 +128,8 @@ pub fn not_found(path: &Path, reason: &impl Display) -> Error {
 
 /// A fold that may be something else, or with a side that may be along another edge.
 pub fn unsure(path: &Path, confidence: f64) -> Error {
-    let problem = format!("the fold's corners are found to {:.0} % sure only", 100.0 * confidence);
-    Error::picture(path, problem, format!("look at what --find --overlay FILE.png draws, {REMEDY}"))
+    let problem = format!("the fold's corners are only {:.0} % sure", 100.0 * confidence);
+    Error::picture(path, problem, format!("look at them with --find --overlay FILE.png, then {REMEDY}"))
 }
 
 /// Draws fold and chart over their photograph, if requested.

@@ -16,7 +16,7 @@ pub fn optics(stated: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (
         LightTaken::Sun(spec, sun) => {
             let note = format!(
                 "{spec} by place and time of {}: a cloudless sky, the sun {:.1}° from the zenith; \
-                 --illuminant says otherwise",
+                 if that is wrong, give --illuminant",
                 path.display(),
                 sun.zenith_deg()
             );
@@ -24,11 +24,11 @@ pub fn optics(stated: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (
             note
         }
         LightTaken::Daylight(why) => {
-            format!("daylight assumed, D65: {why}; --illuminant says which light it was")
+            format!("daylight assumed, D65: {why}; if it was another light, give --illuminant")
         }
         LightTaken::OtherThanDaylight(why) => {
             optics.illuminant = vec![UNKNOWN_LIGHT.to_owned()];
-            format!("which light it was is to be found in the picture: {why}; --illuminant says which it was")
+            format!("vestimate will look for the light: {why}; if you know which it was, give --illuminant")
         }
     };
     (optics, Some(note))

@@ -17,7 +17,7 @@ pub fn images(args: &Args) -> Result<Vec<PathBuf>> {
     let mut images = args.images.clone();
     if let Some(list) = &args.files_from {
         if list == Path::new("-") && args.scene == "-" {
-            let problem = "names and scene cannot both come from standard input";
+            let problem = "the list and the scene cannot both come from standard input";
             return Err(Error::usage("--files-from", problem, "give --scene FILE"));
         }
         images.extend(names(list).map_err(|e| Error::file(list.display(), e))?);

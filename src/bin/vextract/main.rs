@@ -45,9 +45,10 @@ Examples:
   find . -name '*.exr' | sort | vextract --files-from - --scene scene.json --camera nikon-d5100 \\
     --regions corners.json --resume measured.ndjson
 
-Without corners the fold is found: it is measured where that is sure, and else said what to do.
-A chart of 4 x 6 patches that is found surely calibrates it, if it faces the sun. --find says
-where both are, with the probability that all corners are right:
+Without corners the fold is detected. Where detection is uncertain, vextract says what to do
+instead of measuring. A colour chart of 4 x 6 patches, if detected with certainty and facing the
+sun, calibrates the photograph. --find prints the corners of both, with the probability that all
+of them are right:
   vextract --find photo.tif > found.json
   vkernel --angle-deg 50 | vextract photo.tif --regions found.json --camera nikon-d5100
 
@@ -58,19 +59,19 @@ first pixel is at 0.5,0.5. Order:
          of the last row
   white  any four round the card
 
-A chart or card gives the sample its exposure, and each channel a polynomial of second degree
-that makes facets what the scene's camera would have shown. The record's 'calibration' has
-patches, coefficients and residuals.
+A chart or card sets the exposure. For each channel it also fits a quadratic polynomial, which
+converts pixel values to those that the scene's camera would have recorded. Patches, coefficients
+and residuals are in the record's 'calibration'.
 
---regions FILE has the corners for every IMAGE:
+--regions FILE holds the corners for every IMAGE:
   {\"panel0\": [[x,y],[x,y],[x,y],[x,y]], \"panel1\": ..., \"chart\": ..., \"white\": ...}
-or is what vforward printed when it rendered the IMAGE, or a list of such objects, \
-each with \"image\": \"NAME\", for the IMAGE of that file name, with or
-without its ending. Corners found in a picture of another size, such as a preview, are scaled
-if \"width\" and \"height\" say its pixels.
+The record that vforward printed when it rendered IMAGE serves, too. For several photographs,
+FILE holds a list of such objects, each with \"image\": \"NAME\", the file name of its IMAGE with or
+without the extension. Corners marked in a picture of another size, such as a preview, are scaled
+if \"width\" and \"height\" state its size in pixels.
 
-Of several photographs one that cannot be measured is a record with an 'error', and the exit
-status is 3.";
+If one of several photographs cannot be measured, its record has an 'error', and the exit status
+is 3.";
 
 /// Measure the facets of a folded sheet in photographs
 #[derive(Parser)]
@@ -146,12 +147,12 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let takes_scene = args.calibration.save_camera.is_none() && args.scene == "-";
     cli::refuse(
         [("--regions", args.regions.is_stdin() && takes_scene)],
-        "standard input is the scene",
+        "standard input is already the scene",
         "give --scene FILE",
     )?;
     let regions = args.regions.resolved()?;
     let calibration = args.calibration.resolved(&args.optics.wavelengths_nm, &args.common)?;
-    args.optics.one_illuminant("give one: a photograph has one light")?;
+    args.optics.one_illuminant("name one: a photograph has one light")?;
     let flat_field = args.reading.flat_field(&reading)?.map(Arc::new);
     if let Some(file) = &args.calibration.save_camera {
         let first = reading.open(&images[0]);
@@ -201,7 +202,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     {
         let replaced = replaced.display();
         notes.push(format!(
-            "{replaced} was replaced since it was measured: it is measured again, and what follows it"
+            "{replaced} has changed since it was measured: it and all later photographs are measured again"
         ));
     }
     if let ([only], None) = (images.as_slice(), &args.files_from) {

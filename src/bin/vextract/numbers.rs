@@ -23,8 +23,8 @@ pub fn none_usable(path: &Path, info: &PhotographInfo, facets: &[FacetMeasuremen
     let clipped = facets.iter().filter(|facet| facet.clipped > 0).count();
     if 2 * clipped > seen {
         let where_to = ends(info).unwrap_or_else(|| "the white level".to_owned());
-        let problem = format!("no facet can be used: its numbers end at {where_to}, where they are clipped");
-        return Error::picture(path, problem, "expose it less, or check the white level");
+        let problem = format!("no facet can be used: its numbers are clipped at {where_to}");
+        return Error::picture(path, problem, "expose it less, or check --white-level");
     }
     let remedy = "check the panels' corners and --margin";
     Error::picture(path, "no facet has a pixel that can be used", remedy)
@@ -36,11 +36,11 @@ fn clipped(info: &PhotographInfo, facets: &[FacetMeasurement]) -> Option<String>
     let left_out = facets.iter().filter(|facet| facet.clipped > 0 && facet.mean.is_none()).count();
     match ends {
         Some(ends) if percent > 0.0 => Some(format!(
-            ": its numbers end at {ends}, below white: {percent:.1} % of the panels' pixels are taken \
+            ": its numbers end at {ends}, below white: {percent:.1} % of the panels' pixels count \
              as clipped; expose it less"
         )),
         None if left_out > 0 => Some(format!(
-            ": {left_out} facets are left out, as more than 2 % of their pixels are clipped; expose it less"
+            ": {left_out} facets are left out: more than 2 % of their pixels are clipped; expose it less"
         )),
         _ => None,
     }
@@ -81,7 +81,7 @@ fn darkest(info: &PhotographInfo) -> Option<String> {
     let levels: Vec<String> = info.darkest.iter().map(|stored| format!("{stored:.digits$}")).collect();
     (!levels.is_empty()).then(|| {
         format!(
-            ": its darkest pixels are alike in all channels ({}): black was not subtracted, it seems; \
+            ": its darkest pixels are the same in all channels ({}): black was probably not subtracted; \
              give --black-level auto",
             levels.join(", ")
         )
@@ -91,8 +91,9 @@ fn darkest(info: &PhotographInfo) -> Option<String> {
 fn developed(info: &PhotographInfo) -> Option<String> {
     info.is_developed().then(|| {
         format!(
-            " ({}) was developed for the eye, and neither white balance nor matrix is undone: expect a wrong \
-             spectrum; give the RAW file, or --undo, or --transfer if its numbers are the camera's own",
+            " ({}) was developed for the eye, and neither white balance nor colour matrix is undone: \
+             expect a wrong spectrum; give the RAW file, or --undo, or --transfer if its numbers are the \
+             camera's own",
             info.format
         )
     })
@@ -100,8 +101,8 @@ fn developed(info: &PhotographInfo) -> Option<String> {
 
 fn processed(processing: Processing) -> String {
     let why = match processing {
-        Processing::Curve => "its noise falls as brightness rises: its numbers have a curve such as sRGB's",
-        Processing::Matrix => "the noise of its channels goes opposite ways: a matrix mixed them",
+        Processing::Curve => "its noise falls as brightness rises: a tone curve such as sRGB's was applied",
+        Processing::Matrix => "noise in its channels is anticorrelated: a colour matrix mixed them",
     };
     format!(
         ": {why}; expect a wrong spectrum; give the RAW file, or a linear TIFF in the camera's own colours"

@@ -27,7 +27,7 @@ const OPENERS: [&str; 2] = ["xdg-open", "open"];
 /// [`cli::ask_on_page`].
 pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Output) -> Result<()> {
     let [path] = images else {
-        let problem = format!("{} photographs do not go on one page", images.len());
+        let problem = format!("{} photographs, but the page shows one", images.len());
         return Err(Error::usage("--pick", problem, "give one, or open their previews in share/picker.html"));
     };
     let photograph = reading.open(path)?;
@@ -55,9 +55,9 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
         "find" => match clicks(text).map(around) {
             Some(Ok(line)) => Reply::Text(line),
             Some(Err(problem)) => Reply::Refused(problem.to_string()),
-            None => Reply::Refused("write two places as x,y x,y".to_owned()),
+            None => Reply::Refused("write two points as x,y x,y".to_owned()),
         },
-        _ => Reply::Refused("there is nothing of this name".to_owned()),
+        _ => Reply::Refused("there is no page of this name".to_owned()),
     };
     let line = cli::ask_on_page(&files, WAIT, |address| show(path, address), reply)?;
     out.text(&line)
@@ -79,7 +79,7 @@ fn clicks(text: &str) -> Option<[Point; 2]> {
 
 /// Opens the page for a user at a terminal, and prints its address.
 fn show(path: &Path, address: &str) {
-    cli::say("vextract", &format!("{}: mark the panels on {address}", path.display()));
+    cli::say("vextract", &format!("{}: mark the panels in a browser at {address}", path.display()));
     let open = |opener: &&str| {
         let quiet = Command::new(opener).arg(address).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
         quiet.is_ok()

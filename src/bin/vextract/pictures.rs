@@ -9,8 +9,8 @@ use vfold::{Error, Result};
 
 #[derive(Args)]
 pub struct PictureArgs {
-    /// Draw panels, facets and excluded pixels (red) over the photograph; {} in the name stands for the
-    /// IMAGE's
+    /// Draw panels, facets and excluded pixels (red) over the photograph; {} stands for the name of the
+    /// IMAGE
     #[arg(long, value_name = "FILE.png")]
     overlay: Option<PathBuf>,
     /// Write a small picture for finding corners with share/picker.html, and exit; {} as above
@@ -25,8 +25,8 @@ impl PictureArgs {
         for (flag, file) in [("--overlay", &self.overlay), ("--preview", &self.preview)] {
             let shared = file.as_deref().is_some_and(|file| !is_pattern(file));
             if shared && images.len() > 1 {
-                let problem = format!("{} photographs do not go into one picture", images.len());
-                return Err(Error::usage(flag, problem, "write {} for their names, as in overlay-{}.png"));
+                let problem = format!("{} photographs would be drawn into one picture", images.len());
+                return Err(Error::usage(flag, problem, "put {} in its name, as in overlay-{}.png"));
             }
         }
         Ok(())

@@ -7,11 +7,11 @@ use vfold::{Error, Result, cli};
 
 #[derive(Args)]
 pub struct PlacingArgs {
-    /// Move the panels' corners to the edges and the crease within PX pixels instead of 6, and report
-    /// sides that have no edge
+    /// Move the panels' corners to the edges and the crease within PX pixels, up to 100, instead of 6, and
+    /// report sides that have no edge
     #[arg(long, value_name = "PX", num_args = 0..=1, require_equals = true, default_missing_value = "6")]
     refine: Option<f64>,
-    /// Leave the corners where they are
+    /// Use the corners as marked, without moving them to the edges
     #[arg(long, conflicts_with = "refine")]
     exact_corners: bool,
     /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the
@@ -36,7 +36,7 @@ impl PlacingArgs {
         if px > 0.0 && px <= MOST_PX {
             return Ok(());
         }
-        let problem = format!("{px} px is no reach");
+        let problem = format!("{px} px is out of range");
         Err(Error::usage("--refine", problem, "give 1 to 100, such as --refine=6"))
     }
 
@@ -93,8 +93,8 @@ pub fn report(refinement: &Refinement, name: &str, verbose: bool, quiet: bool) {
         let missing = if missing.is_empty() { String::new() } else { format!("; no edge at {missing}") };
         cli::say("vextract", &format!("{name}: corners moved by {} px{missing}", moved.join(" / ")));
     } else if !quiet && refinement.sides_without_edge.iter().any(|side| !side.starts_with("crease")) {
-        let remedy = "look at --overlay";
-        cli::say("vextract", &format!("{name}: no edge at {missing}, which stay where they are; {remedy}"));
+        let remedy = "check with --overlay";
+        cli::say("vextract", &format!("{name}: no edge at {missing}: left where marked; {remedy}"));
     }
 }
 

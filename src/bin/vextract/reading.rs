@@ -15,18 +15,19 @@ pub struct ReadingArgs {
     /// for the rest
     #[arg(long, value_name = "auto|linear|srgb", default_value = "auto", value_parser = transfer)]
     transfer: Transfer,
-    /// Stored number that means no light; auto: the darkest, where these are alike in all channels and
-    /// not 0
+    /// Stored number for no light; auto: the darkest, if it is the same in all channels and not 0
+    /// [default: the RAW file's, else 0]
     #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = black_level)]
     black_level: Option<BlackLevel>,
-    /// Stored number that means 1; pixels from it on are clipped
+    /// Stored number for 1; pixels at or above it count as clipped [default: the RAW file's, else 255, 65535
+    /// or, for floats, 1]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     white_level: Option<f64>,
-    /// Photograph of a white sheet, framed alike, to divide by: it corrects uneven light; its mean counts
-    /// as 1
+    /// Photograph of a white sheet with the same framing, to divide by: it corrects uneven light; its mean
+    /// counts as 1
     #[arg(long, value_name = "IMAGE")]
     white: Option<PathBuf>,
-    /// Undo the white balance and the matrix with which the camera made an sRGB picture
+    /// Undo the camera's white balance and colour matrix in an sRGB picture, which the file states
     #[arg(long, value_name = "FILE.json")]
     undo: Option<String>,
 }
@@ -85,11 +86,11 @@ impl Reading {
 fn file(path: &Path) -> Result<PictureFile> {
     let mut file = PictureFile::open(path)?;
     if is_for_the_eye(&mut file) {
-        let problem = "this is a picture for the eye, made by vfold";
+        let problem = "made by vfold for viewing, not for measuring";
         return Err(Error::picture(
             path,
             problem,
-            "render it as .exr or .tif, or give the photograph itself",
+            "render it as .exr or .tif, or give the original photograph",
         ));
     }
     Ok(file)

@@ -17,27 +17,27 @@ use super::finding;
     group = ArgGroup::new("white_place").args(["white_region", "regions"]).multiple(true)
 )]
 pub struct RegionArgs {
-    /// Corners of panel 0; facets of panels without corners are null [default: detected, if no panel has
-    /// corners]
+    /// Corners of panel 0, px; facets of panels without corners are null [default: detected, if no panel
+    /// has corners]
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     panel0: Option<String>,
-    /// Corners of panel 1
+    /// Corners of panel 1, px
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     panel1: Option<String>,
-    /// Corners of panel N, counted from 0 as the scene has them; once for each
+    /// Corners of panel N, px, numbered from 0 as in the scene; repeat for each panel
     #[arg(long, value_name = "N=x,y x,y x,y x,y", allow_hyphen_values = true, value_parser = numbered)]
     panel: Vec<(usize, String)>,
-    /// Corners of a colour chart's block of patches, for calibration [default: detected, if no corners
-    /// are given]
+    /// Corners of a colour chart's block of patches, px, for calibration [default: detected, if no corners
+    /// are stated]
     #[arg(long, value_name = "x,y x,y x,y x,y", allow_hyphen_values = true)]
     chart: Option<String>,
-    /// Corners of a white card in the picture, to calibrate with
+    /// Corners of a white card in the picture, px, for calibration
     #[arg(long, value_name = "x,y x,y x,y x,y", conflicts_with = "chart", allow_hyphen_values = true)]
     white_region: Option<String>,
-    /// JSON file of corners, see below, - for standard input; the flags above win over it
+    /// JSON file of corners (see below), - for standard input; the flags above override it
     #[arg(long, value_name = "FILE")]
     regions: Option<PathBuf>,
-    /// Keep this distance from the panels' edges
+    /// Keep this distance from the panels' edges, px
     #[arg(long, value_name = "PX", default_value_t = 0.0, allow_negative_numbers = true)]
     pub margin: f64,
 }
@@ -79,7 +79,7 @@ impl RegionArgs {
             named.chain(self.panel.iter().map(|(number, text)| ("--panel", *number, text)))
         {
             if panels.insert(number, parse_corners(flag, text, &PANEL_CORNERS)?).is_some() {
-                return Err(Error::usage(flag, format!("panel {number} is given twice"), "keep one"));
+                return Err(Error::usage(flag, format!("panel {number} is stated twice"), "keep one"));
             }
         }
         Ok(panels)

@@ -131,13 +131,13 @@ impl Setup<'_> {
         let Some(confidence) = regions.chart_confidence else { return calibrated };
         if !self.args.common.quiet {
             let name = format!("{}: ", path.display());
-            let found = format!("{name}chart found, to {:.1} % sure", 100.0 * confidence);
+            let found = format!("{name}chart found, {:.1} % sure", 100.0 * confidence);
             let line = match &calibrated {
                 Err(error) => {
                     let why = error.to_string();
                     format!("{found}, but not used: {}", why.strip_prefix(&name).unwrap_or(&why))
                 }
-                Ok(_) => format!("{found}: the photograph is calibrated by it"),
+                Ok(_) => format!("{found}: it calibrates the photograph"),
             };
             cli::say("vextract", &line);
         }
@@ -177,13 +177,9 @@ impl Setup<'_> {
         if seen == of_camera {
             return Ok(());
         }
-        let kind = if seen == 1 { "a grey picture" } else { "a picture in red, green and blue" };
-        let problem = format!("{kind}, and the scene's camera has {of_camera} channels");
-        Err(Error::picture(
-            path,
-            problem,
-            "give the camera that took it (--camera), or the picture as it took it",
-        ))
+        let kind = if seen == 1 { "a grey picture" } else { "an RGB picture" };
+        let problem = format!("{kind}, but the scene's camera has {of_camera} channels");
+        Err(Error::picture(path, problem, "give the camera that took it (--camera), or the original picture"))
     }
 
     fn say(

@@ -175,14 +175,13 @@ impl Target {
         let (path, photograph) = of;
         if photograph.channels() != 3 {
             let problem = format!("the photograph has {} channels", photograph.channels());
-            return Err(Error::picture(path, problem, "a camera is made of R, G and B"));
+            return Err(Error::picture(path, problem, "--save-camera needs R, G and B"));
         }
         let seen = self.seen(of, lens, corners)?;
         let brightest = seen.iter().flat_map(|patch| &patch.mean).copied().fold(0.0, f64::max);
         if brightest < DARK {
-            let problem = format!(
-                "the chart is too dark: its brightest patch has {brightest:.1e} of what the picture holds"
-            );
+            let problem =
+                format!("the chart is too dark: its brightest patch is {brightest:.1e} of the white level");
             return Err(Error::picture(
                 path,
                 problem,
@@ -192,7 +191,7 @@ impl Target {
         let patch = |(seen, (name, reflectance)): (Seen, &(String, Vec<f64>))| {
             let (measured, standard_error) = (array(seen.mean), array(seen.standard_error));
             if measured.iter().any(|value| *value <= 0.0) {
-                let problem = format!("the chart is too dark: no light is left of patch '{name}'");
+                let problem = format!("the chart is too dark: patch '{name}' is no brighter than black");
                 return Err(Error::picture(path, problem, "expose more, or check --black-level"));
             }
             Ok(ChartPatch { reflectance: reflectance.clone(), measured, standard_error })
@@ -206,7 +205,7 @@ impl Target {
 
     fn turned(&self, path: &Path, order: [Point; 4], residual: f64) -> Error {
         let problem = format!(
-            "the {} is turned or mirrored: its corners fit in another order, within {:.2} %",
+            "the {} is turned or mirrored: in another order its corners fit to {:.2} %",
             self.name,
             100.0 * residual
         );

@@ -35,7 +35,7 @@ impl Emission {
         }
         let Some(spec) = &args.fluorescence else { return Ok(Self::None) };
         if args.optics.illuminant.len() > 1 || args.optics.sky_illuminant.is_some() {
-            let problem = "what a sheet sends out in one light is another part of white's in a second one";
+            let problem = "the emitted fraction of white's light differs from light to light";
             return Err(Error::usage("--fluorescence", problem, "give one --illuminant"));
         }
         let spectrum = args.common.one_radiance_factor("--fluorescence", spec)?;
@@ -57,7 +57,7 @@ impl Lights {
     /// [`Error::Usage`] for several.
     pub fn check(&self, setting: &Setting) -> Result<()> {
         if setting.pictures()? > 1 {
-            let problem = "a sheet that fluoresces is computed in one picture at a time";
+            let problem = "a fluorescent sheet is computed under one light at a time";
             return Err(Error::usage("--donaldson", problem, "give one --illuminant"));
         }
         Ok(())

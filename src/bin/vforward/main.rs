@@ -41,12 +41,12 @@ struct Args {
     /// Scene from vkernel [default: standard input]
     #[arg(value_name = "SCENE", default_value = "-", hide_default_value = true, conflicts_with = "kernel")]
     scene: String,
-    /// Reflectances: set, set:member, number, or file (CSV, CGATS, TM-27, rawtoaces)
+    /// Reflectances: set, set:member, number from 0 to 1, or file (CSV, CGATS, TM-27, rawtoaces)
     #[arg(long, value_name = "SPEC", num_args = 1..,
         required_unless_present_any =
             ["panel_reflectance", "facet_reflectance", "donaldson", "generate", "list"])]
     reflectance: Vec<String>,
-    /// Reflectance of panel P (0 or 1), the other panel being the sheet; if both are given, panel 0 is
+    /// Reflectance of panel P (0 or 1), the other panel being the sheet; if both are stated, panel 0 is
     /// the sheet
     #[arg(long, value_name = "P=SPEC", value_parser = subject::panel_and_spec)]
     panel_reflectance: Vec<(usize, String)>,
@@ -82,13 +82,14 @@ struct Args {
     #[arg(long, value_name = "inf|N|auto", default_value = "inf", value_parser = bounces,
         conflicts_with_all = ["material", "sheet"])]
     bounces: BouncesArg,
-    /// Value of a perfect white diffuser facing the sun, in its strongest channel
+    /// Value of a perfect white diffuser facing the sun, in its strongest channel, above 0
     #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
     exposure: f64,
-    /// Standard deviation of noise on every facet (with --render: on every pixel of the picture only)
+    /// Standard deviation of the noise of every facet, on the scale of its value (with --render: of every
+    /// pixel of the picture only)
     #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
     noise_sd: f64,
-    /// Standard deviation of photon noise at value 1; it grows with the root of the signal
+    /// Standard deviation of photon noise at value 1; it grows with the square root of the value
     #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
     photon_noise: f64,
     /// Seed of the noise
@@ -127,7 +128,7 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let noise = noise(args)?;
     args.render.check(args.sheet.shape()?.is_some())?;
-    args.optics.known_illuminants("vforward computes what a camera sees in a light: give that")?;
+    args.optics.known_illuminants("vforward computes what a camera sees in a known light: name it")?;
     let optics = args.optics.resolve(&args.common.camera(&args.camera)?, &args.common)?;
     let emission = Emission::of(args, &optics.grid)?;
     let subject = Subject::of(args, &optics.grid, &emission)?;
@@ -166,7 +167,7 @@ fn bounces(text: &str) -> std::result::Result<BouncesArg, String> {
     match text {
         "inf" => Ok(BouncesArg::All),
         "auto" => Ok(BouncesArg::Auto),
-        _ => text.parse().map(BouncesArg::First).map_err(|_| "write inf, auto or a number".to_owned()),
+        _ => text.parse().map(BouncesArg::First).map_err(|_| "write inf, auto or a whole number".to_owned()),
     }
 }
 
@@ -200,7 +201,7 @@ fn noise(args: &Args) -> Result<Noise> {
     if !(args.exposure > 0.0 && args.exposure.is_finite()) {
         return Err(Error::usage(
             "--exposure",
-            format!("{} gives no picture", args.exposure),
+            format!("{} is out of range", args.exposure),
             "give a number above 0",
         ));
     }

@@ -52,8 +52,8 @@ impl Setup<'_> {
         let light = match self.args.sheet.shape()? {
             None => self.light(&model, sheet)?,
             Some(_) if for_screen => {
-                let problem = "a sheet that is not perfectly matt is rendered as the camera sees it";
-                return Err(Error::usage("--render", problem, "give a name in .exr or .tif"));
+                let problem = "a sheet that is not perfectly matt is rendered only as the camera sees it";
+                return Err(Error::usage("--render", problem, "end the name in .exr or .tif"));
             }
             Some(shape) => {
                 let folded = fold.folded_sheet(shape, view.eye(), Some(view.grid()))?;
@@ -89,7 +89,7 @@ impl Setup<'_> {
     /// The response of an eye adapted to the light.
     fn eye(&self) -> Result<CameraResponse> {
         let optics = &self.args.optics;
-        let illuminant = optics.one_illuminant("give one with --render: a photograph has one light")?;
+        let illuminant = optics.one_illuminant("name one with --render: a photograph has one light")?;
         let illuminant = self.args.common.illuminant(illuminant)?;
         let eye = Colorimeter::new(&optics.wavelengths_nm, &illuminant, Observer::Cie1931_2deg)?;
         Ok(CameraResponse::from_weights(eye.screen_weights()))

@@ -16,20 +16,20 @@ pub struct RenderArgs {
     /// (sRGB)
     #[arg(long, value_name = "FILE")]
     pub render: Option<PathBuf>,
-    /// Size of the photograph
+    /// Size of the photograph, px
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
     render_size: (usize, usize),
     /// Position of the camera, in the unit of the panels, for --render and for sheets that are not
     /// perfectly matt [default: a few degrees off the sun's direction]
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     eye: Option<Vector3<f64>>,
-    /// Point that the camera looks at [default: the middle]
+    /// Point that the camera looks at [default: the middle of the sheet]
     #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
     look_at: Option<Vector3<f64>>,
     /// Direction that points upwards in the photograph [default: the crease]
     #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
     up: Option<Vector3<f64>>,
-    /// Horizontal field of view [default: fits the sheet]
+    /// Horizontal field of view, degrees, between 0 and 180 [default: fits the sheet]
     #[arg(long, value_name = "DEG", requires = "render", allow_negative_numbers = true)]
     field_of_view_deg: Option<f64>,
 }
@@ -42,11 +42,11 @@ impl RenderArgs {
         if self.eye.is_none() || self.render.is_some() || is_seen {
             return Ok(());
         }
-        let problem = "where the camera stands makes no difference to the facets of a perfectly matt sheet";
+        let problem = "a perfectly matt sheet looks the same from everywhere";
         Err(Error::usage(
             "--eye",
             problem,
-            "give --render, or --specular-weight, --body-roughness-deg or --sheen",
+            "leave it out, or add --render, --specular-weight, --body-roughness-deg or --sheen",
         ))
     }
 

@@ -54,7 +54,7 @@ impl<'a> Setup<'a> {
             }
             Setting::Surface(_) => Err(Error::field(
                 "geometry",
-                "only a fold of two panels can be of a sheet that is not perfectly matt",
+                "only folds of two panels are computed for sheets that are not perfectly matt",
             )),
         });
         let sheet = sheet.transpose()?;

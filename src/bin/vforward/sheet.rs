@@ -8,8 +8,8 @@ use vfold::{Error, Result};
 #[command(next_help_heading = "Sheet")]
 #[group(id = "sheet")]
 pub struct SheetArgs {
-    /// Specular weight: strength of the surface's reflection, that of a closed surface of refractive index
-    /// 1.5 being 1; the camera stands at --eye
+    /// Specular weight, 0 to 2: strength of the surface's reflection, that of a closed surface of refractive
+    /// index 1.5 being 1; the camera stands at --eye
     #[arg(long, alias = "gloss", value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
     specular_weight: f64,
     /// Roughness of the surface: GGX's alpha, 0.25 to 1
@@ -22,10 +22,10 @@ pub struct SheetArgs {
         requires = "specular_weight"
     )]
     specular_roughness: f64,
-    /// Roughness of the body of the sheet: Oren and Nayar's sigma
+    /// Roughness of the body of the sheet: Oren and Nayar's sigma, degrees, 0 to 45
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     body_roughness_deg: f64,
-    /// Sheen: brightening of the body at grazing incidence or viewing, as of felt
+    /// Sheen, 0 to 2: brightening of the body at grazing incidence or viewing, as of felt
     #[arg(long, alias = "fuzz", value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
     sheen: f64,
 }

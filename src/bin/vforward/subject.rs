@@ -65,7 +65,7 @@ fn sheets(args: &Args, grid: &WavelengthGrid) -> Result<Subject> {
         [Some(card), None] => Some((0, card)),
         [None, Some(card)] => Some((1, card)),
         [Some(_), Some(_)] if !sheets.is_empty() => {
-            let problem = "both panels have their reflectance already";
+            let problem = "--panel-reflectance already sets both panels";
             return Err(Error::usage("--reflectance", problem, "leave it out"));
         }
         [Some(sheet), Some(card)] => {
@@ -74,8 +74,8 @@ fn sheets(args: &Args, grid: &WavelengthGrid) -> Result<Subject> {
         }
     };
     if sheets.is_empty() {
-        let problem = "missing, and --panel-reflectance gives one panel only";
-        return Err(Error::usage("--reflectance", problem, "give it or the other panel's"));
+        let problem = "missing, and --panel-reflectance sets only one panel";
+        return Err(Error::usage("--reflectance", problem, "give it, or --panel-reflectance for the other"));
     }
     let card = card.map(|(panel, card)| ReferencePanel::new(panel, &card.id, card.spectrum.reflectance));
     Ok(Subject::Sheets { sheets, card })
@@ -109,8 +109,8 @@ fn excited_sheets(args: &Args, grid: &WavelengthGrid, lights: &Lights) -> Result
             cli::say(
                 "vforward",
                 &format!(
-                    "{light} is known from {from_nm} nm on: what its light from {nm} nm \
-                     excites of {path} is left out"
+                    "{light} is known only from {from_nm} nm: its light from {nm} nm, which excites {path}, \
+                     is left out"
                 ),
             );
         }

@@ -47,7 +47,7 @@ fn scene(
     let default = if method == Method::Exact { Mesh::Auto } else { Mesh::Facets };
     let mesh = args.mesh.unwrap_or(default);
     if mesh == Mesh::Auto && fold.angle_deg() <= TOO_NARROW_DEG {
-        let problem = format!("light bounces too often between undivided panels at {}°", fold.angle_deg());
+        let problem = format!("at {}° light bounces too often for --mesh auto", fold.angle_deg());
         let remedy = format!("give more than {TOO_NARROW_DEG}°, or --mesh facets");
         return Err(Error::usage("--angle-deg", problem, remedy));
     }
@@ -74,7 +74,7 @@ fn scene(
 pub fn light(args: &Args, fold: &Fold) -> Result<Light> {
     if args.sky.is_infinite() {
         let flags = [("--tilt-deg", args.tilt_deg != 0.0), ("--slant-deg", args.slant_deg != 0.0)];
-        refuse(flags, "there is no sun", "leave it out, or give --sky a number")?;
+        refuse(flags, "with --sky only there is no sun", "leave it out, or give --sky a number")?;
     }
     Light::new(fold, args.tilt_deg, args.slant_deg, args.sky)
 }
@@ -108,7 +108,7 @@ fn say_accuracy(args: &Args, method: Method, fold: &Fold, accuracy: &Accuracy) -
     let tolerance = args.tolerance.unwrap_or(TOLERANCE);
     let too_large = accuracy.facet_mean_error.filter(|error| *error > tolerance).map(|error| {
         let angle_deg = fold.angle_deg();
-        (error, format!("{error:.1e} is the least error of the facet means that is reached at {angle_deg}°"))
+        (error, format!("at {angle_deg}° the error of facet means is at best {error:.1e}"))
     });
     match &too_large {
         Some((_, problem)) if args.tolerance.is_some() => {
@@ -122,7 +122,7 @@ fn say_accuracy(args: &Args, method: Method, fold: &Fold, accuracy: &Accuracy) -
     }
     if accuracy.residual > tolerance {
         let left =
-            format!("Lanczos' method stopped at a residual of {:.1e}: too many bounces", accuracy.residual);
+            format!("Lanczos iteration stopped at a residual of {:.1e}: too many bounces", accuracy.residual);
         cli::say("vkernel", &left);
     }
     if let Some((_, problem)) = too_large {
@@ -137,8 +137,8 @@ fn warn_of_spread(args: &Args, method: Method, entry_sd: Option<f64>) {
         && estimate.sampling() == Sampling::Area
     {
         let warning = format!(
-            "form factors have standard errors of up to {sd:.1e}, likely more: \
-             the variance of pairs of points is infinite at the crease; --sampling cosine has a finite one"
+            "form factors have standard errors of up to {sd:.1e}, probably more: \
+             point pairs have infinite variance at the crease; --sampling cosine avoids that"
         );
         cli::say("vkernel", &warning);
     }

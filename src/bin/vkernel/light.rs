@@ -13,12 +13,12 @@ pub const UP: [f64; 3] = [0.0, 0.0, 1.0];
 #[derive(Args)]
 #[command(next_help_heading = "Light from anywhere")]
 pub struct LightArgs {
-    /// A light, repeated for several: direction X,Y,Z towards the sun; point:X,Y,Z, a small lamp there;
-    /// area:X,Y,Z,WIDTHxHEIGHT, a window or a large lamp with its middle there, turned to the middle of the
-    /// sheet, its width along the y axis. A number after another colon is its irradiance on a plane facing it
-    /// (of a lamp: in the middle of the sheet), 1 if there is none. none: the sky alone. Of a fold the bottom
-    /// of the crease's middle is at 0,0,0, y runs along the crease, z out of the opening, panel 1 is at
-    /// positive x; the unit is that of --panel [default: 0,0,1, of a fold as --tilt-deg and --slant-deg say]
+    /// A light; repeat for several. X,Y,Z: the direction towards the sun; point:X,Y,Z: a small lamp there;
+    /// area:X,Y,Z,WIDTHxHEIGHT: a window or large lamp centred there, facing the middle of the sheet, its
+    /// width along the y axis. :E sets the irradiance on a plane facing the light (for a lamp: at the middle
+    /// of the sheet), by default 1. none: the sky alone. In a fold the middle of the crease is at 0,0,0, y
+    /// runs along the crease, z out of the opening, and panel 1 is at positive x; the unit is that of --panel
+    /// [default: 0,0,1; for a fold as --tilt-deg and --slant-deg state]
     #[arg(
         long,
         value_name = "X,Y,Z[:E]|point:X,Y,Z[:E]|area:X,Y,Z,WxH[:E]|none",
@@ -26,9 +26,9 @@ pub struct LightArgs {
         allow_hyphen_values = true
     )]
     light: Vec<LightArg>,
-    /// Sky of --sky: uniform, alike in all directions; dark below the horizon: overcast, that of a dull day
-    /// (Moon and Spencer), clear, or the number of a CIE standard sky, 1 to 15, of which 12 is clear; bright
-    /// about the first sun of --light, or 0,0,1
+    /// Type of the sky of --sky: uniform, the same in all directions; or, dark below the horizon, overcast
+    /// (Moon and Spencer), clear, or a CIE standard sky by its number, 1 to 15 (12 is clear), brightest
+    /// around the first sun of --light, else 0,0,1 [default: uniform]
     #[arg(
         long,
         value_name = "uniform|overcast|clear|1..15",
@@ -77,7 +77,7 @@ impl LightArgs {
     /// irradiance 1 if it is infinite; the sun is in direction `sun` if no light is stated.
     pub fn sources(&self, shape: &Shape, sky: f64, sun: [f64; 3]) -> Result<Vec<LightSource>> {
         if self.zenith.is_some() && self.sky_type == SkyType::Uniform {
-            return Err(Error::usage("--zenith", "a uniform sky has none", "add --sky-type overcast"));
+            return Err(Error::usage("--zenith", "a uniform sky has no zenith", "add --sky-type overcast"));
         }
         if self.sky_type != SkyType::Uniform && sky == 0.0 {
             return Err(Error::usage(
@@ -87,7 +87,7 @@ impl LightArgs {
             ));
         }
         if sky.is_infinite() && !matches!(self.light.as_slice(), [] | [LightArg::None]) {
-            return Err(Error::usage("--sky", "only, beside a --light", "leave one of them out"));
+            return Err(Error::usage("--sky", "'only' excludes --light", "leave one of them out"));
         }
         let lights = match self.light.as_slice() {
             [] if sky.is_infinite() => Vec::new(),
@@ -104,7 +104,7 @@ impl LightArgs {
             sources.push(self.sky(sky, sun)?);
         }
         if sources.is_empty() {
-            return Err(Error::usage("--light", "none, and no sky", "add --sky 1"));
+            return Err(Error::usage("--light", "'none' without a sky leaves no light", "add --sky 1"));
         }
         Ok(sources)
     }
@@ -163,7 +163,7 @@ fn light(text: &str) -> std::result::Result<LightArg, String> {
         return Ok(LightArg::None);
     }
     let wrong = || {
-        "write X,Y,Z, point:X,Y,Z or area:X,Y,Z,WIDTHxHEIGHT, with :IRRADIANCE or without, or none".to_owned()
+        "write X,Y,Z, point:X,Y,Z or area:X,Y,Z,WIDTHxHEIGHT, optionally with :IRRADIANCE, or none".to_owned()
     };
     let (kind, rest) = match text.split_once(':') {
         Some((kind @ ("point" | "area"), rest)) => (kind, rest),

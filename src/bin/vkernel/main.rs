@@ -35,7 +35,7 @@ use vfold::{Error, Result};
                   vkernel --folds 3 --angle-deg 60 --ridge-deg 100 --facets 6x6"
 )]
 struct Args {
-    /// Angle between the two panels, degrees [default: that of --regions, or 45]
+    /// Angle between the two panels, degrees, above 0 to 180 (flat) [default: that of --regions, or 45]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     angle_deg: Option<f64>,
     /// Panel size, along the crease x away from it; only the ratio matters [default: that of --regions,
@@ -49,7 +49,7 @@ struct Args {
     /// Depth of panel 1, in the unit of --panel, if it differs from panel 0's
     #[arg(long, value_name = "DEPTH", allow_negative_numbers = true)]
     panel1_depth: Option<f64>,
-    /// Facets of a panel, rows away from the crease x columns along it: where colour is measured
+    /// Facets per panel, over which colour is averaged: rows away from the crease x columns along it
     #[arg(long, value_name = "ROWSxCOLS", default_value = "10x10", value_parser = cli::pair::<usize>)]
     facets: (usize, usize),
     /// Rows of equal depth, or graded: narrow at the crease, where colour varies
@@ -63,7 +63,7 @@ struct Args {
     /// is infinite where facets meet at the crease), or from rays with the cosine law [default: area]
     #[arg(long, value_name = "SAMPLING")]
     sampling: Option<SamplingName>,
-    /// Samples per form factor (point pairs), or per facet row (rays) [default: 10000]
+    /// Samples per form factor (point pairs), or per facet row (rays), 2 or more [default: 10000]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     samples: Option<u32>,
     /// Seed of the samples [default: 0]
@@ -73,33 +73,34 @@ struct Args {
     /// satisfy reciprocity and energy conservation; exit status 1 if one is violated
     #[arg(long)]
     check: bool,
-    /// Mesh on which interreflections are solved: as fine as needed, one flat patch per facet (the
-    /// paper's model), given patches, or, on a shape, cells along each side of a facet [default: auto;
-    /// facets unless --method is exact]
+    /// Mesh on which interreflections are solved: auto, as fine as needed; facets, one flat patch per facet
+    /// (the paper's model); ROWS times COLS patches per panel; or, on a shape, CELLS along each side of a facet
+    /// [default: auto; facets unless --method is exact]
     #[arg(long, value_name = "auto|facets|ROWSxCOLS|CELLS", value_parser = mesh)]
     mesh: Option<Mesh>,
-    /// Relative error of facet means that --mesh auto may leave, for reflectances up to 1 [default: 1e-5,
-    /// or the least that a narrow fold allows; on shapes 5e-3, or the least possible, for reflectances up
-    /// to 0.9, relative to a tenth of the mean for dark facets]
+    /// Relative error of facet means that --mesh auto may leave, for reflectances up to 1, 1e-12 to 0.1
+    /// [default: 1e-5, or the least that a narrow fold allows; on shapes 5e-3, or the least possible, for
+    /// reflectances up to 0.9, relative to a tenth of the mean for dark facets]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     tolerance: Option<f64>,
-    /// Angle of the sun off the plane that halves the fold, degrees; positive lights panel 0 more
+    /// Angle of the sun off the plane that halves the fold, degrees, less than half of --angle-deg;
+    /// positive lights panel 0 more
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     tilt_deg: f64,
-    /// Angle of the sun along the crease, degrees
+    /// Angle by which the sun leans along the crease, degrees, between -90 and 90
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     slant_deg: f64,
     /// Diffuse-to-direct ratio: irradiance by the sky, uniform or of --sky-type, relative to the sun's;
     /// on an open plane facing the sun, or, for a sky with a horizon, on an open horizontal plane.
-    /// sun:40deg or sun:LAT,LON,TIME: that of a cloudless sky with the sun there; only: no sun, and the
-    /// sky gives an open plane 1
+    /// sun:40deg or sun:LAT,LON,TIME: that of a cloudless sky with the sun there; only: no sun, and a sky
+    /// of irradiance 1
     #[arg(long, value_name = "F|sun:WHERE|only", default_value_t = 0.0, allow_negative_numbers = true,
         value_parser = sky::share)]
     sky: f64,
     /// Name of the scene
     #[arg(long, default_value = "fold")]
     id: String,
-    /// Draw the share of its light that every facet hands to others, and the direct light on it
+    /// Draw maps of the light exchanged between facets and of the direct light on them
     #[arg(long, value_name = "FILE.svg|.png", value_parser = cli::drawing, conflicts_with = "check")]
     plot: Option<PathBuf>,
     #[command(flatten)]
@@ -164,7 +165,7 @@ fn say_work(args: &Args, accuracy: &Accuracy, poles: usize, skipped: &[Skipped])
     }
     let error = accuracy.facet_mean_error.map_or("not estimated".to_owned(), |error| format!("{error:.1e}"));
     let unknowns = accuracy.unknowns;
-    cli::say("vkernel", &format!("{unknowns} unknowns, {poles} poles, facet means' error {error}"));
+    cli::say("vkernel", &format!("{unknowns} unknowns, {poles} poles, error of facet means {error}"));
     for Skipped { what, count, why } in skipped {
         cli::say("vkernel", &format!("skipped {count} {what}: {why}"));
     }

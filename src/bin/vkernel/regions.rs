@@ -45,7 +45,8 @@ pub fn seen(args: &Args, path: &Path) -> Result<Seen> {
         (Ok(seen), None) => check_certain(&name, seen),
         (Err(_), Some(angle_deg)) => Ok(Seen { angle_deg, angle_sd_deg: None, panel: panel(regions) }),
         (Err(problem), None) => {
-            Err(Error::regions(&name, problem.to_string(), "give --angle-deg, or regions of vextract --find"))
+            let remedy = "give --angle-deg, or the output of vextract --find";
+            Err(Error::regions(&name, problem.to_string(), remedy))
         }
     }
 }
@@ -58,7 +59,7 @@ fn check_detected(name: &str, regions: &Regions) -> Result<()> {
     }
     match regions.confidence {
         Some(confidence) if confidence < DetectedFold::SURE => {
-            let problem = format!("the fold's corners are found to {:.0} % sure only", 100.0 * confidence);
+            let problem = format!("the fold's corners are only {:.0} % sure", 100.0 * confidence);
             Err(Error::regions(name, problem, remedy))
         }
         _ => Ok(()),
@@ -93,7 +94,7 @@ fn warn_if_apart(args: &Args, name: &str, seen: &Seen, stated_deg: f64) {
     let Seen { angle_deg, angle_sd_deg: Some(sd_deg), .. } = *seen else { return };
     if (stated_deg - angle_deg).abs() > APART * sd_deg && !args.common.quiet {
         let line = format!(
-            "{name}: the corners say {angle_deg:.1} ± {sd_deg:.1}°, --angle-deg {stated_deg}, which is taken"
+            "{name}: the corners show {angle_deg:.1} ± {sd_deg:.1}°; --angle-deg {stated_deg} is used instead"
         );
         cli::say("vkernel", &line);
     }
@@ -103,8 +104,9 @@ fn warn_if_apart(args: &Args, name: &str, seen: &Seen, stated_deg: f64) {
 fn check_certain(name: &str, seen: Seen) -> Result<Seen> {
     match seen.angle_sd_deg {
         Some(sd_deg) if sd_deg > MOST_SD_DEG => {
-            let problem = format!("the corners tell the angle to {sd_deg:.0}° only, {:.0}°", seen.angle_deg);
-            Err(Error::regions(name, problem, "give the panels' form, such as --panel 1x1, or --angle-deg"))
+            let problem = format!("the corners fix the angle only to {:.0} ± {sd_deg:.0}°", seen.angle_deg);
+            let remedy = "give the panels' proportions, such as --panel 1x1, or --angle-deg";
+            Err(Error::regions(name, problem, remedy))
         }
         _ => Ok(seen),
     }

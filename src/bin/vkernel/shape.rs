@@ -42,14 +42,16 @@ pub struct ShapeArgs {
     /// The surface of --shape reflects on both sides: its backs are as many facets again
     #[arg(long, requires = "shape")]
     two_sided: bool,
-    /// Creases, valleys of --angle-deg and ridges in turn, first a valley: one more panel than creases
+    /// Number of creases, 1 to 1000: valleys of --angle-deg and ridges in turn, starting with a valley;
+    /// there is one panel more than creases
     #[arg(long, value_name = "N", default_value_t = 1)]
     folds: usize,
     /// Angle between the two panels of a ridge, on its back, degrees [default: that of the valleys]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     ridge_deg: Option<f64>,
-    /// Panels curved in an arc: degrees by which each turns away from the other between the crease, where the
-    /// angle is --angle-deg, and its end, as the pages of an open book do; negative: towards it, a trough
+    /// Angle by which each panel curves away from the other between the crease, where they meet at
+    /// --angle-deg, and its end, like the pages of an open book; degrees, between -180 and 180; negative:
+    /// towards the other, as in a trough
     #[arg(
         long,
         visible_alias = "bow",
@@ -135,7 +137,7 @@ fn check(args: &Args) -> Result<()> {
         ),
     ];
     let problem =
-        if args.shape.is_shape() { "not for shapes" } else { "not beside --light, --sky-type or --zenith" };
+        if args.shape.is_shape() { "not for shapes" } else { "not with --light, --sky-type or --zenith" };
     flags.into_iter().try_for_each(|(flag, flags, remedy)| cli::refuse([(flag, flags)], problem, remedy))
 }
 
@@ -179,15 +181,14 @@ fn lit(args: &Args) -> Result<Lit> {
 /// Warns of an accuracy below the expected one, and refuses one below the requested one.
 fn say_accuracy(args: &Args, solved: &Solved) -> Result<()> {
     if solved.direct_error > 0.0 && !args.common.quiet {
-        let sampled =
-            format!("light of the sky is sampled: its standard error is up to {:.1e}", solved.direct_error);
+        let sampled = format!("skylight is sampled: its standard error is up to {:.1e}", solved.direct_error);
         cli::say("vkernel", &sampled);
     }
     let error = solved.accuracy.facet_mean_error;
     let Some(error) = error.filter(|error| *error > args.tolerance.unwrap_or(TOLERANCE)) else {
         return Ok(());
     };
-    let problem = format!("{error:.1e} is the least error of the facet means that is reached on this shape");
+    let problem = format!("on this shape the error of facet means is at best {error:.1e}");
     if args.tolerance.is_some() {
         return Err(Error::usage("--tolerance", problem, "give a larger tolerance or --mesh facets"));
     }

@@ -35,5 +35,5 @@ fn of_clear_sky(place: &str) -> Result<f64> {
     if share.is_finite() {
         return Ok(share);
     }
-    Err(Error::Numeric("no sunlight is left so near the horizon; give the sky as a number".to_owned()))
+    Err(Error::Numeric("so near the horizon no sunlight is left; give --sky a number".to_owned()))
 }

@@ -70,7 +70,7 @@ impl<'a> Groups<'a> {
     pub fn found(&self) -> Result<Option<(&str, &[Group])>> {
         match self.field {
             Some(field) if !self.found => {
-                Err(Error::field(field, "no sample has it, nor its scene; --by takes a field of theirs"))
+                Err(Error::field(field, "no sample or scene has it; --by needs a field of one of them"))
             }
             field => Ok(field.map(|field| (field, self.groups.as_slice()))),
         }

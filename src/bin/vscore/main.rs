@@ -72,13 +72,13 @@ struct Args {
     /// `geometry.angle_deg`
     #[arg(long, value_name = "FIELD")]
     by: Option<String>,
-    /// Draw estimates with their error bands, true spectra, the sheets' look, flat and folded, and the
+    /// Draw estimates with their error bands, true spectra, the sheets' colours, flat and folded, and the
     /// residuals of a single sheet; for more than seven samples, the distribution of scores and the ten
     /// worst; -: spectra on standard error, in characters as wide as the terminal
     #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
     plot: Option<PathBuf>,
-    /// Write a page with all of it and the tools' decisions, one file for browsers and printers; of many
-    /// samples it shows the worst 24. Samples need no truth for this and for --plot
+    /// Write an HTML page with all results and the tools' decisions, for browsers and printers; of many
+    /// samples it shows the worst 24. Neither this nor --plot needs true spectra
     #[arg(long, value_name = "FILE.html", value_parser = page)]
     report: Option<PathBuf>,
     /// Picture of what was measured, for --report, as drawn by vextract --overlay; {} in the name stands
@@ -99,7 +99,7 @@ struct Args {
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "verbatim")]
 enum Condition {
-    /// All that it sends out.
+    /// All light that it sends out.
     M1,
     /// What it reflects.
     M2,

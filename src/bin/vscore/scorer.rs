@@ -45,7 +45,7 @@ impl<'a> Scorer<'a> {
         let scores: Vec<_> = metrics.iter().flat_map(named).collect();
         let mut seen = HashSet::new();
         if let Some((_, twice)) = scores.iter().find(|(_, name)| !seen.insert(name)) {
-            let problem = format!("'{twice}' is asked for twice");
+            let problem = format!("'{twice}' is requested twice");
             return Err(Error::usage("--illuminant, --metrics", problem, "give each once"));
         }
         Ok(Self { args, metrics, scores, illuminants, truth })
@@ -84,7 +84,7 @@ impl<'a> Scorer<'a> {
                         || spectrum.name().split_once(':').is_some_and(|(_, member)| member == id)
                 };
                 let found = spectra.iter().find(named).ok_or_else(|| {
-                    Error::field("id", format!("--truth has no member '{id}' among its {}", spectra.len()))
+                    Error::field("id", format!("--truth has no spectrum '{id}' among its {}", spectra.len()))
                 })?;
                 self.measured(found, own, grid)?
             }

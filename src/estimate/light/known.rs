@@ -173,7 +173,7 @@ impl Shown {
         (self.rms >= EXPLAINED).then(|| {
             Doubt::new(
                 format!(
-                    "facets of the known fold are {:.1} times the noise off the model in every light",
+                    "the known fold's facets differ from the model by {:.1} times the noise in every light",
                     self.rms
                 ),
                 "check its reflectance, angle and corners, and that the same camera took both",

@@ -62,12 +62,12 @@ pub fn findings(shifts: &[DVector<f64>], residuals: &DVector<f64>, sd: f64) -> V
         let open = (1.0 - sd * sd * shift.norm_squared()).max(0.0);
         (off > LEAST && off > 2.0 * sd * open.sqrt()).then(|| Finding {
             what: format!(
-                "end {} {} is not where it is marked, by about {:.1} % of a panel's depth",
+                "end {} {} is about {:.1} % of a panel's depth from where it is marked",
                 n / NAMES.len(),
                 NAMES[n % NAMES.len()],
                 100.0 * off
             ),
-            remedy: "look at it in vextract --overlay and mark it again; --refine finds edges",
+            remedy: "check it with vextract --overlay and mark it again; --refine searches for edges",
             is_unusual: off > 3.0 * sd,
         })
     };

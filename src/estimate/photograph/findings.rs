@@ -23,7 +23,7 @@ pub fn of_day(DayEstimate { day, .. }: DayEstimate) -> Option<Finding> {
     };
     Some(Finding {
         what: what.to_owned(),
-        remedy: "a photograph in direct sunlight tells more",
+        remedy: "photograph it in direct sunlight to learn more",
         is_unusual: false,
     })
 }

@@ -70,8 +70,8 @@ pub fn estimate<'a>(parts: &'a [Parts], prior: &Prior) -> Result<SheetEstimate<'
 /// As [`estimate`]; [`Error::Field`] if the stated scene has no sun, which is required here.
 pub fn estimate_usual<'a>(parts: &'a [Parts], prior: &Prior) -> Result<SheetEstimate<'a>> {
     if parts.iter().any(|one| one.stated.sun <= 0.0) {
-        let problem = "photographs are joined and planned in the sun alone; \
-                       estimate one that the sky lights alone by itself";
+        let problem = "photographs are joined and planned only in sunlight; \
+                       estimate one lit by the sky alone by itself";
         return Err(Error::field("light.sun", problem));
     }
     let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
@@ -320,7 +320,7 @@ fn all_findings(
 fn skipped(fitted: &[Fitted], searches: usize) -> Vec<Skipped> {
     let assumed = fitted.iter().filter(|one| !one.supported).count();
     let all = [
-        ("searches under a kind of sheets and a class of spectra", searches, "the evidence is against them"),
+        ("searches with one sheet model and one class of spectra", searches, "the evidence is against them"),
         (
             "unknowns of the scene",
             assumed,

@@ -25,7 +25,7 @@ impl fmt::Display for Unmodelled {
             Self::Card => "one panel is a card",
             Self::UnequalPanels => "one panel is deeper than the other",
             Self::SeveralLights => "there are pictures under several lights",
-            Self::OtherLight => "other lights than one sun and one sky were stated",
+            Self::OtherLight => "lights other than one sun and one sky were stated",
             Self::NoPose => "the corners do not fix where the camera stood",
             Self::NoFacets => "no facet has any light",
         })

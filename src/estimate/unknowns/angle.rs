@@ -50,7 +50,7 @@ fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
 /// The fold is one of three, or lies between them.
 fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources) -> Result<()> {
     let Some(tolerance) = scene.tolerance else {
-        let problem = "an angle is fitted between folds that vkernel --mesh auto solves; make the scene so";
+        let problem = "--fit angle needs a scene from vkernel --mesh auto; make it again";
         return Err(Error::field("accuracy.mesh", problem));
     };
     let nodes = [mean - sd, mean, mean + sd];

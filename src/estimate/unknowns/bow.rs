@@ -6,7 +6,7 @@ use crate::estimate::photograph::StatedScene;
 /// Turn of both panels over their depth, degrees.
 pub static BOW: Unknown = Unknown {
     name: "bow_deg",
-    description: "By how much both panels turn over their depth",
+    description: "Angle by which both panels turn over their depth",
     unit: Some("degrees"),
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -26,7 +26,7 @@ pub(super) const BOWED: Symptom = Symptom {
     ideal: |_| 0.0,
     least: 1.0,
     words: |_, _| "the panels bow".to_owned(),
-    remedy: "hold them flat, by stiff card behind them",
+    remedy: "hold them flat with stiff card behind them",
 };
 
 fn prior(stated: &StatedScene) -> Option<Expectation> {

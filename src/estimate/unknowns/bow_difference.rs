@@ -7,7 +7,7 @@ use crate::estimate::photograph::StatedScene;
 /// Turn of panel 0 beyond the mean of both, degrees.
 pub static BOW_DIFFERENCE: Unknown = Unknown {
     name: "bow_difference_deg",
-    description: "By how much panel 0 turns more than both do in the mean",
+    description: "Angle by which panel 0 turns more than the mean of both",
     unit: Some("degrees"),
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,

@@ -27,7 +27,7 @@ pub static EVEN_SKY: Unknown = Unknown {
                     stated.even_sky()
                 )
             },
-            remedy: "give vkernel --sky, or photograph the sheet where little but the sun lights it",
+            remedy: "state vkernel --sky, or photograph the sheet where little but the sun lights it",
         }),
     }),
 };

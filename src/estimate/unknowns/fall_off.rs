@@ -6,7 +6,7 @@ use crate::estimate::photograph::StatedScene;
 /// Loss of light from end 0 to end 1 of the crease, relative to its middle; negative for a gain.
 pub static FALL_OFF: Unknown = Unknown {
     name: "fall_off",
-    description: "By how much end 1 of the crease has less light than end 0, relative to the middle",
+    description: "Loss of light along the crease, from end 0 to end 1, relative to the middle",
     unit: None,
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -24,11 +24,11 @@ pub static FALL_OFF: Unknown = Unknown {
                 let (percent, end) = (100.0 * value.abs(), usize::from(*value > 0.0));
                 format!(
                     "light falls off along the crease, by {percent:.0} % towards end {end}: \
-                     a lamp near by, or the edge of a shadow"
+                     a lamp nearby, or the edge of a shadow"
                 )
             },
-            remedy: "photograph the sheet in the sun, away from walls; \
-                     in the light of a lamp, with that further away",
+            remedy: "photograph the sheet in the sun, away from walls, \
+                     or move the lamp further away",
         }),
     }),
 };

@@ -20,7 +20,7 @@ pub static GROUND: Unknown = Unknown {
         symptom: Some(Symptom {
             ideal: |_| 0.0,
             least: 0.2,
-            words: |_, _| "the ground throws light into the fold".to_owned(),
+            words: |_, _| "the ground reflects light into the fold".to_owned(),
             remedy: "lay a black cloth around it",
         }),
     }),

@@ -22,11 +22,11 @@ pub static NEARNESS: Unknown = Unknown {
             least: 0.02,
             words: |Fitted { value, .. }, _| {
                 format!(
-                    "light falls off over the panels, as that of a lamp {:.0} depths of a panel away",
+                    "light falls off over the panels, like that of a lamp {:.0} panel depths away",
                     value.abs().recip()
                 )
             },
-            remedy: "photograph the sheet in the sun, or with the lamp further away",
+            remedy: "photograph the sheet in the sun, or move the lamp further away",
         }),
     }),
 };

@@ -21,7 +21,7 @@ pub static VIGNETTING: Unknown = Unknown {
             ideal: |_| 0.0,
             least: 0.1,
             words: |_, _| "the lens darkens the corners of the picture".to_owned(),
-            remedy: "give vextract --white, a picture of a white sheet, or close the aperture",
+            remedy: "give vextract --white with a picture of a white sheet, or use a smaller aperture",
         }),
     }),
 };

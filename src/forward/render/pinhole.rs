@@ -26,8 +26,8 @@ impl Frame {
     /// [`Error::Usage`] for a picture without pixels or of more than 2²⁸.
     pub fn new(width: usize, height: usize) -> Result<Self> {
         if width == 0 || height == 0 || width.saturating_mul(height) > MOST_PIXELS {
-            let problem = format!("{width}x{height} is no picture");
-            return Err(Error::usage("--render-size", problem, "give 640x480 or so"));
+            let problem = format!("{width}x{height} is not the size of a picture");
+            return Err(Error::usage("--render-size", problem, "give WIDTHxHEIGHT, such as 640x480"));
         }
         Ok(Self { width, height })
     }
@@ -124,7 +124,7 @@ impl Pinhole {
     /// ```
     pub fn with_field_of_view(stand: &Stand, degrees: f64, frame: Frame) -> Result<Self> {
         if !(degrees > 0.0 && degrees < 180.0) {
-            let problem = format!("{degrees} is not the angle of a picture");
+            let problem = format!("{degrees} is out of range");
             return Err(Error::usage("--field-of-view-deg", problem, "give degrees between 0 and 180"));
         }
         let [width, height] = frame.sides();
@@ -157,16 +157,16 @@ impl Pinhole {
         let seen = seen.ok_or_else(|| {
             Error::usage(
                 "--eye",
-                "part of what is photographed lies behind the camera",
-                "stand farther off, or give --field-of-view-deg",
+                "part of the subject lies behind the camera",
+                "move the camera further away, or give --field-of-view-deg",
             )
         })?;
         let [x, y] = [|p: &Point| p.x, |p: &Point| p.y].map(|pick| range(seen.iter().map(pick)));
         let [width, height] = frame.sides();
         let focal_px = FILL * (width / (x[1] - x[0])).min(height / (y[1] - y[0]));
         if !(focal_px > 0.0 && focal_px.is_finite()) {
-            let problem = "what is photographed is seen in one place";
-            return Err(Error::usage("--eye", problem, "stand nearer, or in another place"));
+            let problem = "the subject is seen as a single point";
+            return Err(Error::usage("--eye", problem, "move the camera nearer, or elsewhere"));
         }
         let middle = |[low, high]: [f64; 2], side: f64| 0.5 * side - 0.5 * focal_px * (low + high);
         Ok(Self { focal_px, centre: Point::new(middle(x, width), middle(y, height)), ..camera })
@@ -177,8 +177,8 @@ impl Pinhole {
         let sight = stand.look_at - stand.eye;
         let forward = sight.try_normalize(0.0).filter(|forward| forward.iter().all(|x| x.is_finite()));
         let forward = forward.ok_or_else(|| {
-            let problem = "the camera stands where it looks at";
-            Error::usage("--eye", problem, "give another place, or --look-at")
+            let problem = "the camera is at the point that it looks at";
+            Error::usage("--eye", problem, "give another position, or --look-at")
         })?;
         let across = forward.cross(&stand.up);
         let right = across.try_normalize(PARALLEL * stand.up.norm()).ok_or_else(|| {
@@ -243,11 +243,11 @@ mod tests {
             Pinhole::framing(&stand(eye, up), points, frame).unwrap_err().to_string()
         };
         let (ahead, up) = (Vector3::new(0.0, 0.0, -1.0), [0.0, 1.0, 0.0]);
-        assert!(refused([0.0; 3], up, &[ahead]).contains("stands where it looks at"));
-        assert!(refused([f64::NAN, 0.0, 0.0], up, &[ahead]).contains("stands where it looks at"));
+        assert!(refused([0.0; 3], up, &[ahead]).contains("the point that it looks at"));
+        assert!(refused([f64::NAN, 0.0, 0.0], up, &[ahead]).contains("the point that it looks at"));
         assert!(refused([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], &[ahead]).contains("--up: it points along"));
         assert!(refused([0.0, 0.0, 1.0], up, &[Vector3::new(0.0, 0.0, 2.0)]).contains("behind the camera"));
-        assert!(refused([0.0, 0.0, 1.0], up, &[ahead]).contains("in one place"));
+        assert!(refused([0.0, 0.0, 1.0], up, &[ahead]).contains("a single point"));
         assert!(Pinhole::with_field_of_view(&stand([1.0; 3], up), 180.0, frame).is_err());
         assert!(Frame::new(0, 5).is_err() && Frame::new(1 << 20, 1 << 20).is_err());
     }

@@ -43,7 +43,7 @@ impl Balance {
         });
         known.unwrap_or_else(|| Self {
             gains: OF_MOST_CAMERAS,
-            caption: "white balanced for display as most cameras have daylight".to_owned(),
+            caption: "white balanced for display with typical gains for daylight".to_owned(),
         })
     }
 }

@@ -40,9 +40,7 @@ pub fn write_linear(path: &Path, width: usize, height: usize, rgb: &[f64]) -> Re
         }
         Some("tif" | "tiff") => save(path, &sixteen_bits(path, width, height, rgb)?, ImageFormat::Tiff),
         Some("png") => save(path, &sixteen_bits(path, width, height, rgb)?, ImageFormat::Png),
-        _ => {
-            Err(Error::picture(path, "no picture format by this name", "end the name in .exr, .tif or .png"))
-        }
+        _ => Err(Error::picture(path, "its ending is not known", "end the name in .exr, .tif or .png")),
     }
 }
 

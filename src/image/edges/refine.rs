@@ -200,8 +200,8 @@ fn joined(panels: &[Marked], reach_px: f64) -> Result<Vec<Point>> {
     let place = |joint: usize| {
         let places: Vec<Point> = seen().filter(|(of, _)| *of == joint).map(|(_, place)| place).collect();
         if places.iter().any(|place| place.distance(places[0]) > 2.0 * reach_px) {
-            let problem = "two panels have a corner that they share in different places";
-            let remedy = "give panels that meet at a crease the same ends of it";
+            let problem = "a corner shared by two panels is marked in different places";
+            let remedy = "mark the same ends of the crease for panels that meet at it";
             return Err(Error::usage("--refine", problem, remedy));
         }
         let mean = |pick: fn(&Point) -> f64| places.iter().map(pick).sum::<f64>() / places.len() as f64;

@@ -60,7 +60,7 @@ impl std::str::FromStr for Transfer {
             .ok_or_else(|| {
                 Error::usage(
                     "--transfer",
-                    format!("'{name}' is no transfer curve"),
+                    format!("'{name}' is not a transfer curve"),
                     "write auto, linear or srgb",
                 )
             })

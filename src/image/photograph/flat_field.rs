@@ -41,7 +41,7 @@ impl FlatField {
         if sums.iter().any(|sum| *sum <= 0.0) {
             return Err(Error::picture(
                 path,
-                "the flat field is dark",
+                "the flat field is too dark",
                 "expose it more, or check --black-level",
             ));
         }

@@ -52,7 +52,7 @@ pub(super) fn decode(file: &mut PictureFile) -> Result<Decoded> {
     if head.starts_with(b"II+\0") || head.starts_with(b"MM\0+") {
         return Err(Error::picture(
             path,
-            "a BigTIFF file, which is not read",
+            "BigTIFF files are not supported",
             "save it as TIFF of less than 4 GiB",
         ));
     }
@@ -107,8 +107,8 @@ fn not_named_raw(path: &Path, format: ImageFormat) -> Result<()> {
     if !ending.is_some_and(|ending| RAW_ENDINGS.contains(&ending.as_str())) {
         return Ok(());
     }
-    let problem = format!("named like a camera's RAW file, but a {} picture", name(format));
-    Err(Error::picture(path, problem, "give the RAW file, or give the picture the name of one"))
+    let problem = format!("named like a camera's RAW file, but it is a {} picture", name(format));
+    Err(Error::picture(path, problem, "give the RAW file, or rename the picture"))
 }
 
 /// First bytes of the RAW files that are not plain TIFF, or TIFF with another mark: offset and content.
@@ -138,7 +138,7 @@ type PictureAndMore = (DynamicImage, Option<Vec<u8>>, Vec<Statement>);
 /// Decodes a file that may be damaged in unforeseen ways: a panic of its decoder counts as a fault of the
 /// file.
 fn foreseen<T>(path: &Path, decode: impl FnOnce() -> Result<T>) -> Result<T> {
-    let unforeseen = |_| Err(Error::picture(path, "its decoder failed on it", DAMAGED));
+    let unforeseen = |_| Err(Error::picture(path, "its decoder failed", DAMAGED));
     catch_unwind(AssertUnwindSafe(decode)).unwrap_or_else(unforeseen)
 }
 

@@ -10,5 +10,5 @@ use crate::{Error, Result};
 pub(super) fn open(path: &Path, _bytes: Vec<u8>, _options: &ReadOptions) -> Result<Photograph> {
     const REMEDY: &str = "in a clone of vfold run share/install, or cargo build --release --features raw; \
                           or convert the file to linear TIFF ('dcraw -4 -T -o 0 -r 1 1 1 1')";
-    Err(Error::picture(path, "a camera's RAW file, which this vfold was built without", REMEDY))
+    Err(Error::picture(path, "a camera's RAW file, but this vfold was built without RAW support", REMEDY))
 }

@@ -29,7 +29,7 @@ pub(super) fn kind(file: impl Read + Seek) -> Option<Kind> {
             Some(why) => why,
             None => return Some(Kind::Colours(statements(header))),
         },
-        _ => (several(&headers), "save the part that is meant by itself, as `oiiotool --subimage N` does"),
+        _ => (several(&headers), "save the intended part alone, with `oiiotool --subimage N`"),
     };
     Some(Kind::Other { is, remedy })
 }
@@ -50,18 +50,18 @@ fn not_read(header: &Header) -> Option<(String, &'static str)> {
             .any(|channel| channel.name.eq(name) && channel.sample_type == SampleType::U32)
     };
     if let Some(name) = ["R", "G", "B"].into_iter().find(|name| is_whole(name)) {
-        let is = format!("its channel {name} has whole numbers (UINT), which do not say what white is");
+        let is = format!("its channel {name} holds whole numbers (UINT), for which white is undefined");
         return Some((is, "save it as half or float"));
     }
     if let [first, others @ ..] = &views(header)[..]
         && !others.is_empty()
     {
         let is = format!("a picture of several views: {first}, {}", others.join(", "));
-        return Some((is, "save the view that is meant by itself, as R, G and B"));
+        return Some((is, "save the intended view alone, as R, G and B"));
     }
     if !is_filled(header) {
         let is = "a picture whose data window leaves part of its display window empty".to_owned();
-        return Some((is, "make its display window that of its pixels, as `oiiotool --fullpixels` does"));
+        return Some((is, "set its display window to its pixels, with `oiiotool --fullpixels`"));
     }
     None
 }
@@ -97,11 +97,11 @@ fn other(headers: &[Header]) -> (String, &'static str) {
     let names =
         || headers.iter().flat_map(|header| &header.channels.list).map(|channel| channel.name.to_string());
     if is_deep {
-        return ("a deep picture, of many samples a pixel".to_owned(), "flatten it");
+        return ("a deep picture, with many samples per pixel".to_owned(), "flatten it");
     }
     if let Some(layered) = names().find(|name| name.contains('.')) {
         let is = format!("a picture in layers, such as '{layered}', without R, G and B of its own");
-        return (is, "save the layer that is meant by itself, as R, G and B");
+        return (is, "save the intended layer alone, as R, G and B");
     }
     if headers.iter().any(|header| has(header, ["Y"])) {
         return ("a picture of luminance (Y), not of colours".to_owned(), "save it as R, G and B");

@@ -28,18 +28,14 @@ pub(super) fn check_size(path: &Path, (width, height): (u32, u32), bytes: u64, l
         return Err(Error::picture(path, problem, TOO_LARGE));
     }
     if bytes > length.saturating_mul(MAX_COMPRESSION) {
-        let problem = format!("{width} x {height} px cannot be in its {length} bytes");
+        let problem = format!("its {length} bytes are too few for {width} x {height} px");
         return Err(Error::picture(path, problem, DAMAGED));
     }
     Ok(())
 }
 
 pub(super) fn inks(path: &Path) -> Error {
-    Error::picture(
-        path,
-        "its colours are those of inks (CMYK)",
-        "photographs have red, green and blue: export it as RGB",
-    )
+    Error::picture(path, "its colours are CMYK", "export it as RGB")
 }
 
 pub(super) fn undecodable(path: &Path, error: ImageError) -> Error {

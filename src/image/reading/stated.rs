@@ -28,8 +28,8 @@ pub(super) const OTHER_COLOURS: &str = "whose primaries are not sRGB's";
 const SAME_CURVE: f64 = 2e-3;
 
 /// How to read it nevertheless.
-const REMEDY: &str = "export it again, linear or as sRGB, or say with --transfer linear or srgb how \
-                      its numbers are to be read";
+const REMEDY: &str = "export it again, linear or as sRGB, or state with --transfer linear or srgb how \
+                      to read its numbers";
 
 /// The curve on which the file's statements agree, none if there are none.
 ///

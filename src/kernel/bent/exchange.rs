@@ -186,9 +186,7 @@ impl BentExchange {
             system[(n, n)] += area / albedo;
         }
         let solved = Cholesky::new(system).map(|factors| factors.solve(power));
-        solved.ok_or_else(|| {
-            Error::Numeric(format!("a bent sheet of albedo {albedo} keeps all light that it receives"))
-        })
+        solved.ok_or_else(|| Error::Numeric(format!("no light escapes a bent sheet of albedo {albedo}")))
     }
 }
 

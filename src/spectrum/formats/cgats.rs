@@ -170,8 +170,8 @@ impl Columns {
         let (norm, at) = header.number("SPECTRAL_NORM")?.unwrap_or((1.0, header.at));
         if norm <= 0.0 {
             return Err(at.fails(
-                format!("SPECTRAL_NORM {norm} is no scale"),
-                "give what 1 is written as, such as 100",
+                format!("SPECTRAL_NORM {norm} is not a scale"),
+                "give the number that stands for 1, such as 100",
             ));
         }
         let name = NAMES.iter().find_map(|name| header.fields.iter().position(|field| field == name));
@@ -294,7 +294,7 @@ mod tests {
             ("SPECTRAL_BANDS -5", "SPEC_400 SPEC_500", "1 2", "SPECTRAL_BANDS is '-5', but there are 2"),
             ("NUMBER_OF_SETS 1000000000000", "SPEC_400 SPEC_500", "1 2", "but there are 1 rows"),
             ("NUMBER_OF_FIELDS 3", "SPEC_400 SPEC_500", "1 2", "but there are 2 columns"),
-            ("SPECTRAL_NORM 0", "SPEC_400 SPEC_500", "1 2", "SPECTRAL_NORM 0 is no scale"),
+            ("SPECTRAL_NORM 0", "SPEC_400 SPEC_500", "1 2", "SPECTRAL_NORM 0 is not a scale"),
             ("SPECTRAL_NORM nan", "SPEC_400 SPEC_500", "1 2", "'nan' is not a number"),
             ("SPECTRAL_START_NM 380\nSPECTRAL_END_NM 500", "SPEC_400 SPEC_500", "1 2", "400 nm is 380 nm"),
             ("", "SPEC_500 SPEC_400", "1 2", "order of wavelengths"),
@@ -302,7 +302,7 @@ mod tests {
             ("", "RGB_R RGB_G", "1 2", "no columns of spectra"),
             ("", "SPEC_400 SPEC_500", "1 nan", "column 'SPEC_500': 'nan' is not a number"),
             ("", "SPEC_400 SPEC_500", "1 2\n3", "x.sp:8: 1 values, but the format has 2 columns"),
-            ("", "SPEC_400 SPEC_500", "1 1e308", "no measured number"),
+            ("", "SPEC_400 SPEC_500", "1 1e308", "is too large"),
             ("", "SPEC_400 SPEC_500", "", "no samples"),
             ("", "SAMPLE_ID SPEC_400 SPEC_500", "a 1 2\na 3 4", "two samples are called 'a'"),
         ] {

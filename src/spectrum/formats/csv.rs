@@ -134,7 +134,7 @@ fn rows<'a>(
         }
         if record.iter().any(|cell| cell.contains('\n')) {
             return Err(
-                at.fails("a quoted cell does not end on its line", "close the quotes, or take them out")
+                at.fails("a quoted cell does not end on its line", "close the quotes, or remove them")
             );
         }
         Ok((record, at))

@@ -40,8 +40,7 @@ impl Table {
     pub fn new(spectra: Vec<Spectrum>) -> Result<Self> {
         for spectrum in &spectra {
             if let Some(value) = spectrum.values().iter().find(|value| value.abs() > LARGEST) {
-                let (name, problem) =
-                    (spectrum.name().to_owned(), format!("{value:e} is no measured number"));
+                let (name, problem) = (spectrum.name().to_owned(), format!("{value:e} is too large"));
                 return Err(Error::Spectrum { name, problem, remedy: "rescale the spectrum".to_owned() });
             }
         }

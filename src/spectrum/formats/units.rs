@@ -63,19 +63,19 @@ impl Unit {
         let (nm, name, remedy) = match self {
             Self::Nanometres if looks_small(value) => {
                 let problem = format!("wavelength {value} looks like micrometres, not nm");
-                return Err(at.fails(problem, "give all in nm, or head them um"));
+                return Err(at.fails(problem, "give all in nm, or put um in the header"));
             }
             Self::Nanometres => (value, "nm", "give nm, such as 400 to 700"),
             // 0.57 um is exactly 570 nm, without a rounding error
             Self::Micrometres => (
                 (value * 1e9).round() / 1e6,
                 "micrometres",
-                "give micrometres, such as 0.4 to 0.7, or head them nm",
+                "give micrometres, such as 0.4 to 0.7, or put nm in the header",
             ),
             Self::Angstroms => (
                 value / 10.0,
                 "\u{e5}ngstr\u{f6}m",
-                "give \u{e5}ngstr\u{f6}m, such as 4000 to 7000, or head them nm",
+                "give \u{e5}ngstr\u{f6}m, such as 4000 to 7000, or put nm in the header",
             ),
         };
         if (100.0..=3000.0).contains(&nm) {
@@ -174,13 +174,13 @@ pub(super) fn percent(
     };
     if stated.is_none() && !is_percent {
         if let Some((spectrum, _)) = open().find(|(_, scale)| **scale == Scale::Unclear) {
-            let problem = format!("the name '{}' may say percent, or be just a name", spectrum.name());
+            let problem = format!("the name '{}' may mean percent, or be only a name", spectrum.name());
             return Err(bad(path, problem, "give --percent, or --percent=no if the values are fractions"));
         }
         if peak > 1.0 && peak <= FRACTION_MAX {
             let problem = format!("reflectance {peak} is outside 0..1, unless it is percent of a dark sheet");
             let remedy =
-                "give --percent if so, else leave out fluorescent samples or rescale wrongly scaled ones";
+                "give --percent if it is, else leave out fluorescent samples or rescale wrongly scaled ones";
             return Err(bad(path, problem, remedy));
         }
     }

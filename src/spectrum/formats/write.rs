@@ -78,7 +78,7 @@ fn format(path: &Path) -> Result<Format> {
     let path = path.to_string_lossy();
     let known = [("csv", Format::Csv), ("sp", Format::Cgats), ("spdx", Format::Tm27)];
     known.into_iter().find(|(ending, _)| has_ending(&path, &[ending])).map(|(_, format)| format).ok_or_else(
-        || Error::usage("--spectra", format!("'{path}' names no format"), "end it in .csv, .sp or .spdx"),
+        || Error::usage("--spectra", format!("'{path}' has no known ending"), "end it in .csv, .sp or .spdx"),
     )
 }
 
@@ -149,7 +149,7 @@ fn csv(path: &Path, samples: &[Measured]) -> Result<Vec<u8>> {
 fn cgats(path: &Path, samples: &[Measured]) -> Result<String> {
     let nm = common_nm(path, samples)?;
     if super::super::interpolation::even_step_nm(nm).is_none() {
-        return Err(unfit(path, "CGATS spectra are evenly spaced, these are not", "write .csv"));
+        return Err(unfit(path, "CGATS spectra must be evenly spaced", "write .csv"));
     }
     let rows: Vec<_> = names(samples, ",\"")
         .into_iter()

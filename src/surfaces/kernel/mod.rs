@@ -103,7 +103,7 @@ impl SurfaceKernel {
     pub fn new(shape: &Shape, patches: &[Patch], tolerance: f64) -> Result<Self> {
         if patches.len() > FACETS_MAX {
             let problem = format!("{} patches", patches.len());
-            return Err(Error::shape(problem, format!("take a mesh of at most {FACETS_MAX}")));
+            return Err(Error::shape(problem, format!("use a mesh of at most {FACETS_MAX}")));
         }
         if patches.len() < CLUSTERED {
             return Self::by_pairs(shape, patches, tolerance);
@@ -160,10 +160,10 @@ impl SurfaceKernel {
     fn check(self) -> Result<Self> {
         let largest = self.row_sums().into_iter().fold(0.0, f64::max);
         if largest > ALL {
-            let problem = format!("a facet hands on {largest:.4} times its light");
+            let problem = format!("a facet passes on {largest:.4} times its light");
             return Err(Error::shape(
                 problem,
-                "divide facets that cross or lie in each other along the lines where they do",
+                "divide facets that cross or overlap along the lines where they do",
             ));
         }
         Ok(self)

@@ -180,18 +180,18 @@ fn what_does_not_fit_into_memory_is_refused() {
     assert_eq!((made.status, made.stderr.as_str()), (0, ""));
     let panels = "--panel0 '0,0 9,0 9,9 0,9' --panel1 '0,0 9,0 9,9 0,9' --camera canon-5d-mark-ii";
     for (command, says) in [
-        (format!("vextract large.tif --scene one.json {panels}"), "large.tif: no room for "),
-        ("vkernel --facets 512x512 --mesh facets".to_owned(), "form factors: no room for "),
-        ("vkernel --facets 512x512 --check".to_owned(), "form factors: no room for "),
+        (format!("vextract large.tif --scene one.json {panels}"), "large.tif: not enough memory for "),
+        ("vkernel --facets 512x512 --mesh facets".to_owned(), "form factors: not enough memory for "),
+        ("vkernel --facets 512x512 --check".to_owned(), "form factors: not enough memory for "),
         (
             "vkernel --angle-deg 10 --facets 200x200 --tolerance 1e-6".to_owned(),
-            "undivided panels: no room for ",
+            "undivided panels: not enough memory for ",
         ),
         (
             "{ printf '{\"kind\":\"remark\",\"x\":\"'; head -c 700M /dev/zero | tr '\\0' x; \
                 echo '\"}'; } | vestimate -j 2"
                 .to_owned(),
-            "no room for ",
+            "not enough memory for ",
         ),
     ] {
         let ended = sh(&folder, &format!("(export RAYON_NUM_THREADS=2; {}; {command})", within(100)));

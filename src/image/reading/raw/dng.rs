@@ -154,12 +154,12 @@ fn mosaic(path: &Path, directory: &Directory) -> Result<Mosaic> {
     let filters = directory.numbers(FILTERS[1]).unwrap_or_default();
     let repeat = directory.numbers(FILTERS[0]).unwrap_or_else(|| vec![2.0, 2.0]);
     let [rows, columns] = repeat[..] else {
-        return Err(damaged(path, "its CFARepeatPatternDim has not two numbers"));
+        return Err(damaged(path, "its CFARepeatPatternDim does not have two numbers"));
     };
     let filters = Array3::from_shape_vec((rows as usize, columns as usize, 1), filters);
     let filters = filters.ok().filter(|filters| (1..=144).contains(&filters.len()));
-    let filters =
-        filters.ok_or_else(|| damaged(path, format!("its CFAPattern has not {rows} x {columns} filters")))?;
+    let filters = filters
+        .ok_or_else(|| damaged(path, format!("its CFAPattern is not of {rows} x {columns} filters")))?;
     let (rows, columns, _) = filters.dim();
     // a square that contains whole repetitions of both
     let side =

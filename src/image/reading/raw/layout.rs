@@ -116,7 +116,7 @@ impl Layout {
             Some("whose numbers are stored in blocks (SubTileBlockSize)")
         } else if !layout.is_deinterleaved() {
             Some(
-                "interleaved otherwise than by 2 rows and columns of one integer a pixel, \
+                "interleaved other than by 2 rows and columns of one integer a pixel, \
                  an even number each",
             )
         } else {
@@ -190,7 +190,7 @@ impl Layout {
     fn check_jpeg(&self, path: &Path, bytes: &[u8], rows: usize) -> Result<()> {
         const LOSSLESS: u8 = 0xc3;
         let frame = Jpeg(bytes).frame();
-        let frame = frame.ok_or_else(|| damaged(path, "a part of it that should be JPEG is none"))?;
+        let frame = frame.ok_or_else(|| damaged(path, "a part that should be JPEG is not"))?;
         if frame.marker != LOSSLESS {
             return Err(unread(path, "compressed as lossy JPEG"));
         }
@@ -272,7 +272,7 @@ impl Segments {
         let count = columns * rows;
         if offsets.len() != count || lengths.len() != count {
             let problem = format!(
-                "{} strips or tiles, of {count} that make up its picture",
+                "it has {} strips or tiles of the {count} that make up its picture",
                 offsets.len().min(lengths.len())
             );
             return Err(damaged(path, problem));

@@ -68,7 +68,7 @@ struct Decoded {
 /// Decodes a file. Decoders panic on some files, which is reported like their other errors.
 fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
     let failed = |message: &str| {
-        let problem = format!("its decoder failed on it: {}", one_line(message));
+        let problem = format!("its decoder failed: {}", one_line(message));
         Error::picture(path, problem, UNREAD_OR_DAMAGED)
     };
     let source = RawSource::new_from_shared_vec(Arc::new(bytes)).with_path(path);

@@ -10,7 +10,7 @@ use crate::{Error, Result, room};
 
 /// Remedy for a file that only other programs read, or that needs unsupported operations.
 pub(super) const ELSEWHERE: &str =
-    "convert it to linear TIFF with a program that does, or take the camera's own RAW file";
+    "convert it to linear TIFF with a program that does, or use the camera's own RAW file";
 
 /// Checks that a sensor's numbers fit into memory and that there are any.
 pub(super) fn check_size(path: &Path, size: Dim2, samples: usize) -> Result<()> {

@@ -80,17 +80,17 @@ const PACK_BITS: u64 = 32773;
 const OLD_DEFLATE: u64 = 32946;
 /// Unsupported compressions, by name.
 const UNREAD_COMPRESSIONS: [(u64, &str); 11] = [
-    (2, "fax's (CCITT RLE)"),
-    (3, "fax's (CCITT group 3)"),
-    (4, "fax's (CCITT group 4)"),
-    (6, "old JPEG's"),
-    (32909, "PixarLog's"),
-    (34676, "SGILog's"),
-    (34712, "JPEG 2000's"),
-    (34887, "LERC's"),
-    (34925, "LZMA's"),
-    (50000, "Zstandard's"),
-    (50001, "WebP's"),
+    (2, "CCITT RLE (fax)"),
+    (3, "CCITT group 3 (fax)"),
+    (4, "CCITT group 4 (fax)"),
+    (6, "old-style JPEG"),
+    (32909, "PixarLog"),
+    (34676, "SGILog"),
+    (34712, "JPEG 2000"),
+    (34887, "LERC"),
+    (34925, "LZMA"),
+    (50000, "Zstandard"),
+    (50001, "WebP"),
 ];
 
 impl Layout {
@@ -98,7 +98,7 @@ impl Layout {
     /// [`Error::Picture`] if it contradicts itself, or has unsupported properties.
     pub fn of(path: &Path, page: &Directory, length: u64) -> Result<Self> {
         let (Some(width), Some(height)) = (page.number(WIDTH), page.number(HEIGHT)) else {
-            return Err(damaged(path, "it does not say how large its picture is"));
+            return Err(damaged(path, "it does not state the size of its picture"));
         };
         if width == 0 || height == 0 {
             let problem = format!("the picture is {width} x {height} px");
@@ -248,7 +248,7 @@ impl Layout {
         if (offsets.len().min(counts.len()) as u64) < wanted {
             let (there, width, height) = (offsets.len().min(counts.len()), self.width, self.height);
             let problem =
-                format!("inconsistent sizes: {width} x {height} px are {wanted} {what}, and it has {there}");
+                format!("inconsistent sizes: {width} x {height} px need {wanted} {what}, but it has {there}");
             return Err(damaged(path, problem));
         }
         let chunks: Vec<_> = offsets.into_iter().zip(counts).take(wanted as usize).collect();
@@ -300,7 +300,7 @@ fn kind(path: &Path, page: &Directory) -> Result<Kind> {
         unread(path, &format!("samples of different {what} ({all})"), "save it with 16 bits in every sample")
     };
     let bits = alike(BITS_PER_SAMPLE, 1).map_err(|all| unlike("bits", all))?;
-    let format = alike(SAMPLE_FORMAT, INTEGERS).map_err(|all| unlike("kinds", all))?;
+    let format = alike(SAMPLE_FORMAT, INTEGERS).map_err(|all| unlike("formats", all))?;
     match (format, bits) {
         (INTEGERS | UNDEFINED, 8) => Ok(Kind::U8),
         (INTEGERS | UNDEFINED, 16) => Ok(Kind::U16),
@@ -331,7 +331,7 @@ fn alpha(path: &Path, page: &Directory, samples: usize, colours: usize) -> Resul
     };
     if colours == 1 && samples - usize::from(alpha.is_some()) > 1 {
         let problem =
-            format!("it is grey, and has {samples} samples a pixel: which are its colours it does not say");
+            format!("it is grey, but has {samples} samples per pixel, and does not state which are colours");
         return Err(Error::picture(path, problem, "save it as RGB"));
     }
     Ok(alpha.map(|alpha| colours + alpha).filter(|alpha| *alpha < samples))
@@ -341,7 +341,7 @@ fn compression(path: &Path, page: &Directory) -> Result<u64> {
     const REMEDY: &str = "save it uncompressed, or compressed by Deflate or LZW";
     let compression = page.number(COMPRESSION).unwrap_or(NONE);
     if page.number(FILL_ORDER).unwrap_or(1) != 1 {
-        return Err(unread(path, "bytes whose bits are in the other order (FillOrder 2)", REMEDY));
+        return Err(unread(path, "bits in reversed order (FillOrder 2)", REMEDY));
     }
     if matches!(compression, NONE | LZW | JPEG | DEFLATE | PACK_BITS | OLD_DEFLATE) {
         return Ok(compression);

@@ -51,8 +51,8 @@ impl Pages {
         let Some([wide, high]) = larger.into_iter().find(|[w, h]| *w > width && *h > height) else {
             return Ok(());
         };
-        let problem = format!("its first page is {width} x {height} px, and a later one {wide} x {high} px");
-        Err(Error::picture(path, problem, "save the page that is meant by itself"))
+        let problem = format!("its first page is {width} x {height} px, but a later one {wide} x {high} px");
+        Err(Error::picture(path, problem, "save the intended page alone"))
     }
 }
 
@@ -113,7 +113,7 @@ mod tests {
         assert!(check(8, 8).is_ok() && check(8, 4).is_ok());
         let message = check(4, 8).unwrap_err().to_string();
         assert!(
-            message.contains("first page is 4 x 4 px, and a later one 8 x 8 px; save the page"),
+            message.contains("first page is 4 x 4 px, but a later one 8 x 8 px; save the intended page"),
             "{message}"
         );
     }

@@ -142,7 +142,7 @@ fn read_list(path: &Path, mut list: Parameters, stage: u32, active: Rect) -> Res
             .map_or_else(|| format!("opcode {id}"), ToString::to_string);
         let is_optional = flags & 1 == 1;
         if is_done(id, stage) {
-            let senseless = || damaged(path, format!("its {name} in OpcodeList{stage} makes no sense"));
+            let senseless = || damaged(path, format!("its {name} in OpcodeList{stage} is invalid"));
             let does = Does::read(parameters, id, active).ok_or_else(senseless)?;
             let origin = if stage == 1 { Point::zero() } else { active.p };
             opcodes.push(Opcode { origin, is_demosaiced: stage == 3, does });
