@@ -1,7 +1,7 @@
 complete -c vestimate -l prior -d 'Prior on the reflectance: sheets (paint, cloth, plants, skin, paper, prints), spectra (set or file), smooth (the paper\'s estimator) or none [default: sheets]' -r
 complete -c vestimate -l smoothness -d 'Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: as the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]' -r
-complete -c vestimate -l noise-sd -d 'Standard deviation of every facet; auto: from the samples, else from what no reflectance explains' -r
-complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value [default: 3e-4 for photographs, 0 for computed facets]' -r
+complete -c vestimate -l noise-sd -d 'Standard deviation of the noise of every facet, on the scale of its value; auto: from the samples, else from what no reflectance explains' -r
+complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value, 0 to 1 [default: 3e-4 for photographs, 0 for computed facets]' -r
 complete -c vestimate -l exposure -d 'Pixel value of a perfect white diffuser facing the sun; free: fit it; sum: normalise by sums, as in the paper [default: the sample\'s, else free]' -r
 complete -c vestimate -l fit -d 'Scene parameters to fit, comma-separated; the scene\'s values are the prior means [default: auto for photographs that an ideal fold does not explain, else none]' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
 angle\t'Angle between the panels'
@@ -14,26 +14,26 @@ complete -c vestimate -l join -d 'Estimate photographs of one sheet together: gr
 complete -c vestimate -l illuminants -d 'Candidates for an unknown light: every column of a file [default: daylight of 4000 to 12500 K, suns, black bodies of 2500 to 4000 K, LEDs, fluorescent lamps]' -r
 complete -c vestimate -l known-fold -d 'A fold of a sheet of known reflectance, taken by the same camera in the same light: one sample of vforward or vextract, and its reflectance. It fixes the light and, for computed facets, the exposure' -r
 complete -c vestimate -l start -d 'Initial reflectance [default: the prior mean; 0.5 for --prior smooth and none]' -r
-complete -c vestimate -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' look under D65, flat and folded, and the residuals of a single sheet; for 8 to 60 samples, a small chart each; -: spectra of the first seven on standard error, in characters as wide as the terminal' -r -F
+complete -c vestimate -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' colours under D65, flat and folded, and the residuals of a single sheet; for 8 to 60 samples, a small chart each; -: spectra of the first seven on standard error, in characters as wide as the terminal' -r -F
 complete -c vestimate -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
-complete -c vestimate -l trace -d 'Write the iterations of every estimate, one JSON record a line' -r -F
-complete -c vestimate -l method -d 'From the bounces in a fold, or from the mean colour of a flat sheet (vkernel --angle-deg 180): Park 2007, principal components and smoothness; Khan 2013, the components that sensors and lights see' -r -f -a "interreflection\t'From the bounces of light between the panels of a fold'
+complete -c vestimate -l trace -d 'Write the iterations of every estimate, one JSON record per line' -r -F
+complete -c vestimate -l method -d 'Estimate from the bounces in a fold (interreflection), or from the mean colour of a flat sheet (vkernel --angle-deg 180): park (2007), principal components and smoothness, or khan (2013), the components that camera and lights can see' -r -f -a "interreflection\t'From the bounces of light between the panels of a fold'
 park\t'Flat sheet: combination of principal components, smooth'
 khan\t'Flat sheet: combination of the components that sensors and lights see'"
-complete -c vestimate -l components -d 'Components that a spectrum is combined of [default: 8 for park, 9 for khan, no more than channels times lights]' -r
-complete -c vestimate -l basis -d 'Spectra that have the components [default: munsell]' -r
-complete -c vestimate -l material -d 'A group of a shape\'s facets has this reflectance; repeated for several groups. All other facets are the sheet' -r
+complete -c vestimate -l components -d 'Number of components of a spectrum, 1 to 1000 [default: 8 for park, 9 for khan, no more than channels times lights]' -r
+complete -c vestimate -l basis -d 'Spectra from which the components are computed [default: munsell]' -r
+complete -c vestimate -l material -d 'Reflectance of a group of a shape\'s facets; repeat for several groups. All other facets are the sheet' -r
 complete -c vestimate -l kernel -d 'Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j' -r -F
-complete -c vestimate -l irradiance -d 'Direct light: one number per facet, or one row per source [default: 1 everywhere]' -r -F
-complete -c vestimate -l areas -d 'Areas of the facets [default: those that reciprocity asks for]' -r -F
-complete -c vestimate -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
-complete -c vestimate -l resume -d 'Write here as --output does, line by line, and resume an interrupted run of the same command' -r -F
-complete -c vestimate -s j -l threads -d 'Threads to use [default: all cores]' -r
+complete -c vestimate -l irradiance -d 'Direct irradiance: one number per facet, or one row per source [default: 1 everywhere]' -r -F
+complete -c vestimate -l areas -d 'Areas of the facets, in any unit [default: those that reciprocity implies]' -r -F
+complete -c vestimate -s o -l output -d 'Write to FILE instead of standard output; it appears when it is complete' -r -F
+complete -c vestimate -l resume -d 'Like --output, but write line by line, and resume an interrupted run of the same command' -r -F
+complete -c vestimate -s j -l threads -d 'Threads to use, 1 to 1024 [default: all cores]' -r
 complete -c vestimate -l progress -d 'Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vestimate -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
-complete -c vestimate -l generate -d 'Print the man page, a shell\'s completions, or page and JSON Schema of the records' -r -f -a "man\t'The man page'
+complete -c vestimate -l generate -d 'Print the man page, a shell\'s completions, or the man page or JSON Schema of the records' -r -f -a "man\t'The man page'
 stream\t'The man page vfold-stream(5): all fields of all records'
 schema\t'JSON Schema of the records'
 bash\t'Completions for bash'
@@ -42,7 +42,7 @@ fish\t'Completions for fish'"
 complete -c vestimate -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
-complete -c vestimate -l percent -d 'Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a value is above 2]' -r -f -a "true\t''
+complete -c vestimate -l percent -d 'Read files of reflectances without a stated unit as percent, or, with --percent=no, as fractions [default: as percent if a value is above 2]' -r -f -a "true\t''
 false\t''"
 complete -c vestimate -l camera -d 'Camera of a scene that has none [default: canon-5d-mark-ii]' -r -F -a "canon-5d-mark-ii\t''
 nikon-d5100\t''
@@ -98,7 +98,7 @@ sony-ilce-7rm4\t''
 sony-ilce-7sm2\t''
 sony-ilce-7sm3\t''
 sony-ilce-9\t''"
-complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65]; unknown: forget what scenes say of theirs, and find it' -r -F -a "A\t''
+complete -c vestimate -l illuminant -d 'Illuminant of a scene that has none; repeated: a picture under each, or one per light as for vforward [default: D65]; unknown: ignore the illuminants of the scenes, and find them' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''
@@ -144,7 +144,7 @@ LED-V2\t''
 LCD-R\t''
 LCD-G\t''
 LCD-B\t''"
-complete -c vestimate -l sky-illuminant -d 'Illuminant of its sky [default: that of the sun]' -r -F -a "A\t''
+complete -c vestimate -l sky-illuminant -d 'Illuminant of the sky of a scene that has none [default: the same as the sun\'s]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''
@@ -198,7 +198,7 @@ complete -c vestimate -l reference-panel -d 'Panel 1 is a card of this reflectan
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vestimate -l backed -d 'The sheet is backed by black card or its like: no light comes through it from behind'
+complete -c vestimate -l backed -d 'The sheet is backed by black card or the like: no light comes through it from behind'
 complete -c vestimate -l plan -d 'Take scenes without samples and report the expected errors: one record per scene, for --noise-sd [default: 1e-3]; for ideal folds, for photographs of real sheets with --fit auto, and with --join for the first scene together with each of the others'
 complete -c vestimate -s q -l quiet -d 'Print nothing but errors'
 complete -c vestimate -s v -l verbose -d 'Report what was decided, measured and skipped'

@@ -1,35 +1,35 @@
 complete -c vextract -l files-from -d 'More photographs: a file with one name per line, - for standard input' -r -F
 complete -c vextract -l scene -d 'Scene from vkernel [default: standard input]' -r
-complete -c vextract -l wavelengths-nm -d 'Wavelengths, nm' -r
-complete -c vextract -l panel0 -d 'Corners of panel 0; facets of panels without corners are null [default: detected, if no panel has corners]' -r
-complete -c vextract -l panel1 -d 'Corners of panel 1' -r
-complete -c vextract -l panel -d 'Corners of panel N, counted from 0 as the scene has them; once for each' -r
-complete -c vextract -l chart -d 'Corners of a colour chart\'s block of patches, for calibration [default: detected, if no corners are given]' -r
-complete -c vextract -l white-region -d 'Corners of a white card in the picture, to calibrate with' -r
-complete -c vextract -l regions -d 'JSON file of corners, see below, - for standard input; the flags above win over it' -r -F
-complete -c vextract -l margin -d 'Keep this distance from the panels\' edges' -r
-complete -c vextract -l refine -d 'Move the panels\' corners to the edges and the crease within PX pixels instead of 6, and report sides that have no edge' -r
+complete -c vextract -l wavelengths-nm -d 'Wavelengths, nm: the first, the last and the step' -r
+complete -c vextract -l panel0 -d 'Corners of panel 0, px; facets of panels without corners are null [default: detected, if no panel has corners]' -r
+complete -c vextract -l panel1 -d 'Corners of panel 1, px' -r
+complete -c vextract -l panel -d 'Corners of panel N, px, numbered from 0 as in the scene; repeat for each panel' -r
+complete -c vextract -l chart -d 'Corners of a colour chart\'s block of patches, px, for calibration [default: detected, if no corners are stated]' -r
+complete -c vextract -l white-region -d 'Corners of a white card in the picture, px, for calibration' -r
+complete -c vextract -l regions -d 'JSON file of corners (see below), - for standard input; the flags above override it' -r -F
+complete -c vextract -l margin -d 'Keep this distance from the panels\' edges, px' -r
+complete -c vextract -l refine -d 'Move the panels\' corners to the edges and the crease within PX pixels, up to 100, instead of 6, and report sides that have no edge' -r
 complete -c vextract -l distortion -d 'Lens distortion about the picture\'s centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side' -r
-complete -c vextract -l overlay -d 'Draw panels, facets and excluded pixels (red) over the photograph; {} in the name stands for the IMAGE\'s' -r -F
+complete -c vextract -l overlay -d 'Draw panels, facets and excluded pixels (red) over the photograph; {} stands for the name of the IMAGE' -r -F
 complete -c vextract -l preview -d 'Write a small picture for finding corners with share/picker.html, and exit; {} as above' -r -F
 complete -c vextract -l transfer -d 'Transfer curve of the stored numbers; auto: as the file states, else sRGB for 8 bits and linear for the rest' -r
-complete -c vextract -l black-level -d 'Stored number that means no light; auto: the darkest, where these are alike in all channels and not 0' -r
-complete -c vextract -l white-level -d 'Stored number that means 1; pixels from it on are clipped' -r
-complete -c vextract -l white -d 'Photograph of a white sheet, framed alike, to divide by: it corrects uneven light; its mean counts as 1' -r -F
-complete -c vextract -l undo -d 'Undo the white balance and the matrix with which the camera made an sRGB picture' -r
-complete -c vextract -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel, if known' -r
-complete -c vextract -l chart-grid -d 'Patches of the chart' -r
-complete -c vextract -l chart-cos -d 'Cosine of the angle between the sun and the chart\'s normal; 1: the chart faces the sun, unlike the panels' -r
+complete -c vextract -l black-level -d 'Stored number for no light; auto: the darkest, if it is the same in all channels and not 0 [default: the RAW file\'s, else 0]' -r
+complete -c vextract -l white-level -d 'Stored number for 1; pixels at or above it count as clipped [default: the RAW file\'s, else 255, 65535 or, for floats, 1]' -r
+complete -c vextract -l white -d 'Photograph of a white sheet with the same framing, to divide by: it corrects uneven light; its mean counts as 1' -r -F
+complete -c vextract -l undo -d 'Undo the camera\'s white balance and colour matrix in an sRGB picture, which the file states' -r
+complete -c vextract -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel, above 0, if known' -r
+complete -c vextract -l chart-grid -d 'Rows and columns of patches of the chart' -r
+complete -c vextract -l chart-cos -d 'Cosine of the angle between the sun and the chart\'s normal, above 0 to 1; 1: the chart faces the sun, unlike the panels' -r
 complete -c vextract -l save-camera -d 'Estimate the camera\'s sensitivities from the chart in IMAGE under --illuminant, write them and exit; use the file with --camera' -r -F
-complete -c vextract -l white-cos -d 'Cosine of the angle between the sun and the white card\'s normal' -r
-complete -c vextract -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
-complete -c vextract -l resume -d 'Write here as --output does, line by line, and resume an interrupted run of the same command' -r -F
-complete -c vextract -s j -l threads -d 'Threads to use [default: all cores]' -r
+complete -c vextract -l white-cos -d 'Cosine of the angle between the sun and the normal of card or paper, above 0 to 1' -r
+complete -c vextract -s o -l output -d 'Write to FILE instead of standard output; it appears when it is complete' -r -F
+complete -c vextract -l resume -d 'Like --output, but write line by line, and resume an interrupted run of the same command' -r -F
+complete -c vextract -s j -l threads -d 'Threads to use, 1 to 1024 [default: all cores]' -r
 complete -c vextract -l progress -d 'Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vextract -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
-complete -c vextract -l generate -d 'Print the man page, a shell\'s completions, or page and JSON Schema of the records' -r -f -a "man\t'The man page'
+complete -c vextract -l generate -d 'Print the man page, a shell\'s completions, or the man page or JSON Schema of the records' -r -f -a "man\t'The man page'
 stream\t'The man page vfold-stream(5): all fields of all records'
 schema\t'JSON Schema of the records'
 bash\t'Completions for bash'
@@ -38,7 +38,7 @@ fish\t'Completions for fish'"
 complete -c vextract -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
-complete -c vextract -l percent -d 'Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a value is above 2]' -r -f -a "true\t''
+complete -c vextract -l percent -d 'Read files of reflectances without a stated unit as percent, or, with --percent=no, as fractions [default: as percent if a value is above 2]' -r -f -a "true\t''
 false\t''"
 complete -c vextract -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON) [default: by the photograph\'s EXIF]' -r -F -a "canon-5d-mark-ii\t''
 nikon-d5100\t''
@@ -94,7 +94,7 @@ sony-ilce-7rm4\t''
 sony-ilce-7sm2\t''
 sony-ilce-7sm3\t''
 sony-ilce-9\t''"
-complete -c vextract -l illuminant -d 'Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; of a photograph also unknown: vestimate finds it; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun\'s]' -r -F -a "A\t''
+complete -c vextract -l illuminant -d 'Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), or a file; for a photograph also unknown: vestimate finds it. Repeated: a picture under each, or, for a shape under several lights, one picture with an illuminant per light in their order, skies not counted [default: D65; for a photograph that states where and when it was taken, the sun\'s]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''
@@ -140,7 +140,7 @@ LED-V2\t''
 LCD-R\t''
 LCD-G\t''
 LCD-B\t''"
-complete -c vextract -l sky-illuminant -d 'Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant [default: that of the sun]' -r -F -a "A\t''
+complete -c vextract -l sky-illuminant -d 'Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant [default: the same as the sun\'s]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''
@@ -196,7 +196,7 @@ cc24-iso17321\t''
 munsell\t''"
 complete -c vextract -l find -d 'Print where the fold and the chart are in each photograph, one line of JSON as --regions reads it, and exit; needs no scene'
 complete -c vextract -l pick -d 'Show the photograph and the detected fold in a browser on this machine, to be corrected there, then print the corners as --find does'
-complete -c vextract -l exact-corners -d 'Leave the corners where they are'
+complete -c vextract -l exact-corners -d 'Use the corners as marked, without moving them to the edges'
 complete -c vextract -s q -l quiet -d 'Print nothing but errors'
 complete -c vextract -s v -l verbose -d 'Report what was decided, measured and skipped'
 complete -c vextract -l no-history -d 'Do not record this tool\'s arguments in the stream'

@@ -1,35 +1,35 @@
-complete -c vforward -l panel-reflectance -d 'Reflectance of panel P (0 or 1), the other panel being the sheet; if both are given, panel 0 is the sheet' -r
+complete -c vforward -l panel-reflectance -d 'Reflectance of panel P (0 or 1), the other panel being the sheet; if both are stated, panel 0 is the sheet' -r
 complete -c vforward -l facet-reflectance -d 'Reflectance of every facet, one sample per file: facets (panel, row, column) x wavebands, float64; one flat patch per facet, no truth in the samples' -r -F
 complete -c vforward -l fluorescence -d 'The sheet fluoresces: it emits this fraction of white\'s light, named as for --reflectance, wherever the light of --illuminant falls directly' -r
 complete -c vforward -l donaldson -d 'Donaldson matrices instead of reflectances: all light that falls on a sheet excites it, ultraviolet and bounced light included. A file has emission wavelengths in the first column and excitation wavelengths in the header (CSV), or is the export of a Labsphere BFC-450' -r
-complete -c vforward -l wavelengths-nm -d 'Wavelengths, nm' -r
+complete -c vforward -l wavelengths-nm -d 'Wavelengths, nm: the first, the last and the step' -r
 complete -c vforward -l bounces -d 'Bounces of light that count: all, the first N (0: direct light only), or as many as the scene\'s tolerance requires' -r
-complete -c vforward -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel' -r
-complete -c vforward -l noise-sd -d 'Standard deviation of noise on every facet (with --render: on every pixel of the picture only)' -r
-complete -c vforward -l photon-noise -d 'Standard deviation of photon noise at value 1; it grows with the root of the signal' -r
+complete -c vforward -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel, above 0' -r
+complete -c vforward -l noise-sd -d 'Standard deviation of the noise of every facet, on the scale of its value (with --render: of every pixel of the picture only)' -r
+complete -c vforward -l photon-noise -d 'Standard deviation of photon noise at value 1; it grows with the square root of the value' -r
 complete -c vforward -l seed -d 'Seed of the noise' -r
-complete -c vforward -l specular-weight -d 'Specular weight: strength of the surface\'s reflection, that of a closed surface of refractive index 1.5 being 1; the camera stands at --eye' -r
+complete -c vforward -l specular-weight -d 'Specular weight, 0 to 2: strength of the surface\'s reflection, that of a closed surface of refractive index 1.5 being 1; the camera stands at --eye' -r
 complete -c vforward -l specular-roughness -d 'Roughness of the surface: GGX\'s alpha, 0.25 to 1' -r
-complete -c vforward -l body-roughness-deg -d 'Roughness of the body of the sheet: Oren and Nayar\'s sigma' -r
-complete -c vforward -l sheen -d 'Sheen: brightening of the body at grazing incidence or viewing, as of felt' -r
+complete -c vforward -l body-roughness-deg -d 'Roughness of the body of the sheet: Oren and Nayar\'s sigma, degrees, 0 to 45' -r
+complete -c vforward -l sheen -d 'Sheen, 0 to 2: brightening of the body at grazing incidence or viewing, as of felt' -r
 complete -c vforward -l render -d 'Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)' -r -F
-complete -c vforward -l render-size -d 'Size of the photograph' -r
+complete -c vforward -l render-size -d 'Size of the photograph, px' -r
 complete -c vforward -l eye -d 'Position of the camera, in the unit of the panels, for --render and for sheets that are not perfectly matt [default: a few degrees off the sun\'s direction]' -r
-complete -c vforward -l look-at -d 'Point that the camera looks at [default: the middle]' -r
+complete -c vforward -l look-at -d 'Point that the camera looks at [default: the middle of the sheet]' -r
 complete -c vforward -l up -d 'Direction that points upwards in the photograph [default: the crease]' -r
-complete -c vforward -l field-of-view-deg -d 'Horizontal field of view [default: fits the sheet]' -r
-complete -c vforward -l material -d 'A group of a shape\'s facets has this reflectance; repeated for several groups. All other facets are the sheet' -r
+complete -c vforward -l field-of-view-deg -d 'Horizontal field of view, degrees, between 0 and 180 [default: fits the sheet]' -r
+complete -c vforward -l material -d 'Reflectance of a group of a shape\'s facets; repeat for several groups. All other facets are the sheet' -r
 complete -c vforward -l kernel -d 'Instead of a scene: form factors, facets x facets; row i, column j is the share of the light of facet i that reaches j' -r -F
-complete -c vforward -l irradiance -d 'Direct light: one number per facet, or one row per source [default: 1 everywhere]' -r -F
-complete -c vforward -l areas -d 'Areas of the facets [default: those that reciprocity asks for]' -r -F
-complete -c vforward -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
-complete -c vforward -l resume -d 'Write here as --output does, line by line, and resume an interrupted run of the same command' -r -F
-complete -c vforward -s j -l threads -d 'Threads to use [default: all cores]' -r
+complete -c vforward -l irradiance -d 'Direct irradiance: one number per facet, or one row per source [default: 1 everywhere]' -r -F
+complete -c vforward -l areas -d 'Areas of the facets, in any unit [default: those that reciprocity implies]' -r -F
+complete -c vforward -s o -l output -d 'Write to FILE instead of standard output; it appears when it is complete' -r -F
+complete -c vforward -l resume -d 'Like --output, but write line by line, and resume an interrupted run of the same command' -r -F
+complete -c vforward -s j -l threads -d 'Threads to use, 1 to 1024 [default: all cores]' -r
 complete -c vforward -l progress -d 'Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vforward -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
-complete -c vforward -l generate -d 'Print the man page, a shell\'s completions, or page and JSON Schema of the records' -r -f -a "man\t'The man page'
+complete -c vforward -l generate -d 'Print the man page, a shell\'s completions, or the man page or JSON Schema of the records' -r -f -a "man\t'The man page'
 stream\t'The man page vfold-stream(5): all fields of all records'
 schema\t'JSON Schema of the records'
 bash\t'Completions for bash'
@@ -38,7 +38,7 @@ fish\t'Completions for fish'"
 complete -c vforward -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
-complete -c vforward -l percent -d 'Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a value is above 2]' -r -f -a "true\t''
+complete -c vforward -l percent -d 'Read files of reflectances without a stated unit as percent, or, with --percent=no, as fractions [default: as percent if a value is above 2]' -r -f -a "true\t''
 false\t''"
 complete -c vforward -l camera -d 'Camera: built-in name, or a file (CSV, CGATS, rawtoaces JSON)' -r -F -a "canon-5d-mark-ii\t''
 nikon-d5100\t''
@@ -94,7 +94,7 @@ sony-ilce-7rm4\t''
 sony-ilce-7sm2\t''
 sony-ilce-7sm3\t''
 sony-ilce-9\t''"
-complete -c vforward -l illuminant -d 'Illuminant: built-in name, daylight:CCT, black body such as 2856K, sun:40deg or sun:LAT,LON,TIME, the sun of a cloudless day, or a file; of a photograph also unknown: vestimate finds it; repeated: a picture under each, or, of a shape under several lights, one picture with these in the order of the lights, skies aside [default: D65; of a photograph that says where and when it was taken, the sun\'s]' -r -F -a "A\t''
+complete -c vforward -l illuminant -d 'Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), or a file; for a photograph also unknown: vestimate finds it. Repeated: a picture under each, or, for a shape under several lights, one picture with an illuminant per light in their order, skies not counted [default: D65; for a photograph that states where and when it was taken, the sun\'s]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''
@@ -140,7 +140,7 @@ LED-V2\t''
 LCD-R\t''
 LCD-G\t''
 LCD-B\t''"
-complete -c vforward -l sky-illuminant -d 'Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant [default: that of the sun]' -r -F -a "A\t''
+complete -c vforward -l sky-illuminant -d 'Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant [default: the same as the sun\'s]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''
@@ -186,7 +186,7 @@ LED-V2\t''
 LCD-R\t''
 LCD-G\t''
 LCD-B\t''"
-complete -c vforward -l reflectance -d 'Reflectances: set, set:member, number, or file (CSV, CGATS, TM-27, rawtoaces)' -r -F -a "cc24\t''
+complete -c vforward -l reflectance -d 'Reflectances: set, set:member, number from 0 to 1, or file (CSV, CGATS, TM-27, rawtoaces)' -r -F -a "cc24\t''
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"

@@ -1,4 +1,4 @@
-complete -c vscore -l condition -d 'Measurement condition of ISO 13655: M2, without ultraviolet, compares what the sheet reflects; M1, under D50, also what it emits by fluorescence. Without fluorescence they are the same' -r -f -a "M1\t'All that it sends out'
+complete -c vscore -l condition -d 'Measurement condition of ISO 13655: M2, without ultraviolet, compares what the sheet reflects; M1, under D50, also what it emits by fluorescence. Without fluorescence they are the same' -r -f -a "M1\t'All light that it sends out'
 M2\t'What it reflects'"
 complete -c vscore -l observer -d 'Standard observer of the colour difference, degrees' -r
 complete -c vscore -l metrics -d 'Scores: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]' -r -f -a "rmse\t'Root mean square error'
@@ -8,18 +8,18 @@ gfc\t'Goodness of fit coefficient'
 angle\t'Spectral angle'
 metamerism\t'From the first illuminant to each other one'"
 complete -c vscore -l by -d 'Also summarise by the value of a field of the samples or their scenes, such as `geometry.angle_deg`' -r
-complete -c vscore -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' look, flat and folded, and the residuals of a single sheet; for more than seven samples, the distribution of scores and the ten worst; -: spectra on standard error, in characters as wide as the terminal' -r -F
-complete -c vscore -l report -d 'Write a page with all of it and the tools\' decisions, one file for browsers and printers; of many samples it shows the worst 24. Samples need no truth for this and for --plot' -r -F
+complete -c vscore -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' colours, flat and folded, and the residuals of a single sheet; for more than seven samples, the distribution of scores and the ten worst; -: spectra on standard error, in characters as wide as the terminal' -r -F
+complete -c vscore -l report -d 'Write an HTML page with all results and the tools\' decisions, for browsers and printers; of many samples it shows the worst 24. Neither this nor --plot needs true spectra' -r -F
 complete -c vscore -l overlay -d 'Picture of what was measured, for --report, as drawn by vextract --overlay; {} in the name stands for the sample\'s; repeated: pictures named after their samples' -r -F
 complete -c vscore -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
-complete -c vscore -s o -l output -d 'Write here instead of standard output; the file appears when it is whole' -r -F
-complete -c vscore -l resume -d 'Write here as --output does, line by line, and resume an interrupted run of the same command' -r -F
-complete -c vscore -s j -l threads -d 'Threads to use [default: all cores]' -r
+complete -c vscore -s o -l output -d 'Write to FILE instead of standard output; it appears when it is complete' -r -F
+complete -c vscore -l resume -d 'Like --output, but write line by line, and resume an interrupted run of the same command' -r -F
+complete -c vscore -s j -l threads -d 'Threads to use, 1 to 1024 [default: all cores]' -r
 complete -c vscore -l progress -d 'Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the records go to a file' -r -f -a "auto\t'On a terminal, when the records go to a file'
 always\t'Always'
 never\t'Never'"
 complete -c vscore -l save -d 'Also write a field of the records as an NPY array, samples stacked' -r
-complete -c vscore -l generate -d 'Print the man page, a shell\'s completions, or page and JSON Schema of the records' -r -f -a "man\t'The man page'
+complete -c vscore -l generate -d 'Print the man page, a shell\'s completions, or the man page or JSON Schema of the records' -r -f -a "man\t'The man page'
 stream\t'The man page vfold-stream(5): all fields of all records'
 schema\t'JSON Schema of the records'
 bash\t'Completions for bash'
@@ -28,7 +28,7 @@ fish\t'Completions for fish'"
 complete -c vscore -l list -d 'Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA' -r -f -a "cameras\t'Camera sensitivities'
 illuminants\t'Illuminants'
 reflectances\t'Reflectances and sets of them'"
-complete -c vscore -l percent -d 'Files of reflectances that do not say their unit are in percent, or, with --percent=no, in fractions [default: in percent if a value is above 2]' -r -f -a "true\t''
+complete -c vscore -l percent -d 'Read files of reflectances without a stated unit as percent, or, with --percent=no, as fractions [default: as percent if a value is above 2]' -r -f -a "true\t''
 false\t''"
 complete -c vscore -l illuminant -d 'Illuminant of the colour difference; repeated: differences under each, and metamerism from the first to the others' -r -F -a "A\t''
 D50\t''

@@ -74,7 +74,7 @@ struct Args {
     #[arg(long)]
     check: bool,
     /// Mesh on which interreflections are solved: auto, as fine as needed; facets, one flat patch per facet
-    /// (the paper's model); ROWS times COLS patches per panel; or, on a shape, CELLS along each side of a facet
+    /// (the paper's model); ROWS times COLS patches per panel; on a shape, CELLS along each side of a facet
     /// [default: auto; facets unless --method is exact]
     #[arg(long, value_name = "auto|facets|ROWSxCOLS|CELLS", value_parser = mesh)]
     mesh: Option<Mesh>,

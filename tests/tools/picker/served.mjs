@@ -49,7 +49,7 @@ try {
   const again = await regions();
 
   await page.locator("#done").click();
-  const goodbye = await (await words("vextract has the corners")).jsonValue();
+  const goodbye = await (await words("vextract has received the corners")).jsonValue();
   process.stdout.write(`${JSON.stringify({ greeting, found, dragged, again, goodbye, problems })}\n`);
 } finally {
   await browser.close();
