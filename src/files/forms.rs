@@ -156,9 +156,9 @@ mod tests {
     #[test]
     fn what_is_no_text_is_named() {
         for (bytes, name, way_out) in [
-            (&b"\x1f\x8b\x08\0"[..], "compressed by gzip", Some("put it through gzip -dc first")),
-            (b"\x28\xb5\x2f\xfd\x04", "compressed by zstd", Some("put it through zstd -dc first")),
-            (b"\xff\xfe\0\0n\0\0\0", "text in UTF-32", Some("put it through iconv -f UTF-32 -t UTF-8 first")),
+            (&b"\x1f\x8b\x08\0"[..], "compressed by gzip", Some("run it through gzip -dc first")),
+            (b"\x28\xb5\x2f\xfd\x04", "compressed by zstd", Some("run it through zstd -dc first")),
+            (b"\xff\xfe\0\0n\0\0\0", "text in UTF-32", Some("run it through iconv -f UTF-32 -t UTF-8 first")),
             (b"\xd0\xcf\x11\xe0\xa1", "a spreadsheet (XLS)", None),
             (b"\x7fELF\x02\x01\x01\0\0\0\0\0", "not text", None),
         ] {
@@ -177,7 +177,7 @@ mod tests {
             (b"\0{\0}\0\n", "UTF-16BE"),
         ] {
             let form = other_form(bytes).unwrap();
-            let way_out = format!("put it through iconv -f {encoding} -t UTF-8 first");
+            let way_out = format!("run it through iconv -f {encoding} -t UTF-8 first");
             assert_eq!((form.name, form.way_out()), ("text in UTF-16", Some(way_out)));
         }
         assert!(other_form(b"{}\n").is_none() && other_form(b"\0\xff\n").is_none());

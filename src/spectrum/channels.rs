@@ -143,8 +143,8 @@ mod tests {
     #[test]
     fn names_that_leave_it_open_are_refused() {
         for (names, want) in [
-            (&["R", "red", "G", "B"][..], "the columns R, red are of one colour"),
-            (&["R", "G", "G1", "B"], "the columns G, G1 are of one colour"),
+            (&["R", "red", "G", "B"][..], "the columns R, red have the same colour"),
+            (&["R", "G", "G1", "B"], "the columns G, G1 have the same colour"),
             (&["B", "x", "y"], "the columns B, x, y do not name all of R, G and B"),
         ] {
             let message = ordered(names).unwrap_err().to_string();

@@ -71,7 +71,7 @@ fn read(path: &Path, needed: &str, extents: impl Fn(&[u64]) -> Option<[usize; 2]
     let is_plain =
         |header: &Vec<u8>| header.iter().filter(|byte| b"([{".contains(byte)).count() <= BRACKETS_MAX;
     let Some(header) = header(&mut file).map_err(failed)?.filter(is_plain) else {
-        return Err(wrong("not an NPY file of a plain array; save float64 numbers".to_owned()));
+        return Err(wrong("its header is not that of a plain NPY array; save float64 numbers".to_owned()));
     };
     let array = NpyFile::new(Cursor::new(&header).chain(file)).map_err(failed)?;
     let Some([rows, cols]) = extents(array.shape()) else {

@@ -139,9 +139,13 @@ END
             case(
                 "vforward scene.json --reflectance 0.5 --camera twice.csv",
                 1,
-                &["R, red are of one colour"],
+                &["R, red have the same colour"],
             ),
-            case("vforward scene.json --reflectance 0.5 --camera greens.csv", 1, &["G, g are of one colour"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --camera greens.csv",
+                1,
+                &["G, g have the same colour"],
+            ),
             case("vforward scene.json --reflectance 0.5 --camera some.csv", 1, &["B, IR, UV, W do not name"]),
         ],
     );

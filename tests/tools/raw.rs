@@ -82,7 +82,9 @@ fn curves_are_predicted_from_the_colour_matrix() {
          --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4' | tee records | vestimate -q");
     assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
     assert!(
-        run.stderr.contains("Canon EOS 9X Mark II: they are predicted from its colour matrix"),
+        run.stderr.contains(
+            "Canon EOS 9X Mark II have not been measured: they are predicted from its colour matrix"
+        ),
         "{}",
         run.stderr
     );
