@@ -125,7 +125,7 @@ fn an_edge_between_colours_that_are_equally_bright_is_found() {
     };
     let (found, _) = refined_in_colour(|x, y| if is_sheet(x, y) { [0.5, 0.3, 0.1] } else { [0.2, 0.3, 0.4] });
     for (found, truth) in found.panels[0].iter().zip(corners) {
-        // pixels of this picture have the same colour or the other: half a pixel is as near as they tell
+        // pixels of this picture are of one colour or the other: half a pixel is as near as they tell
         assert!(distance(*found, truth) < 0.6, "{found:?} {truth:?}");
     }
 }

@@ -327,6 +327,6 @@ fn pictures_under_the_names_of_raw_files_are_refused() {
     let jpeg = fs::read(encoded(&folder, "a.jpg", None, None)).unwrap();
     for name in ["a.nef", "A.NEF", "a.dng", "a.CR2"] {
         let refused = refusal(&written(&folder, name, &jpeg));
-        assert!(refused.contains("like a camera's RAW file, but a JPEG picture"), "{refused}");
+        assert!(refused.contains("like a camera's RAW file, but it is a JPEG picture"), "{refused}");
     }
 }
