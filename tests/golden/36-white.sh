@@ -39,7 +39,7 @@ compare "white card" ${exposure#*:}
 # printing paper of unknown whiteness, brightened: its green channel alone shows the exposure, and no channel is balanced by it
 set -- $(python3 -c "import numpy as np; r, g, b = 0.5 * np.load('white.npy')[0, 0] / 0.45; print(0.87 * r, 0.9 * g, 1.1 * b)")
 oiiotool fold.exr --fill:color=$1,$2,$3 60x40+10+10 -o paper.exr
-panels paper.exr --white-region "10,10 70,10 70,50 10,50" -o sample.ndjson
+panels paper.exr --white-region "10,10 70,10 70,50 10,50" -o sample.ndjson 2>&1
 compare "facets beside white paper" 0.5
 python3 - <<'END'
 import json

@@ -83,6 +83,10 @@ impl Setup<'_> {
         }
         if let Some(paper) = &paper {
             sample.set_white_paper(paper)?;
+            if !self.args.common.quiet {
+                let remedy = "for a card give --white-reflectance";
+                cli::say("vextract", &format!("{}: taken for {paper}; {remedy}", path.display()));
+            }
         }
         if let Some((calibration, record)) = &calibrated {
             apply(calibration, &mut facets);
