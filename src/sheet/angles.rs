@@ -24,6 +24,50 @@ pub struct Angles {
     pub(super) fresnel: [f64; 3],
 }
 
+/// Many pairs of directions, stored number by number, so that reflections of several are computed at once.
+#[derive(Clone, Debug, Default)]
+pub struct AngleList {
+    pub(super) cos_in: Vec<f64>,
+    pub(super) cos_out: Vec<f64>,
+    pub(super) cos_between: Vec<f64>,
+    pub(super) places: Vec<Place>,
+    pub(super) fresnel: [Vec<f64>; 3],
+}
+
+impl AngleList {
+    /// Number of pairs.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// True if there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+}
+
+impl Extend<Angles> for AngleList {
+    fn extend<I: IntoIterator<Item = Angles>>(&mut self, more: I) {
+        for Angles { cos_in, cos_out, cos_between, place, fresnel } in more {
+            self.cos_in.push(cos_in);
+            self.cos_out.push(cos_out);
+            self.cos_between.push(cos_between);
+            self.places.push(place);
+            self.fresnel.iter_mut().zip(fresnel).for_each(|(values, value)| values.push(value));
+        }
+    }
+}
+
+impl FromIterator<Angles> for AngleList {
+    fn from_iter<I: IntoIterator<Item = Angles>>(all: I) -> Self {
+        let mut list = Self::default();
+        list.extend(all);
+        list
+    }
+}
+
 impl Angles {
     /// From unit vectors towards the light and towards the eye, with z along the normal of the sheet.
     ///
@@ -53,12 +97,5 @@ impl Angles {
     pub fn instrument() -> Self {
         let half = 0.5_f64.sqrt();
         Self::new(&Vector3::new(half, 0.0, half), &Vector3::z())
-    }
-
-    /// Dot product of the directions' projections onto the sheet: the sines of both angles times the cosine
-    /// of the azimuth between them.
-    #[must_use]
-    pub fn along_sheet(&self) -> f64 {
-        self.cos_between - self.cos_in * self.cos_out
     }
 }

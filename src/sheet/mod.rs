@@ -19,7 +19,7 @@ use nalgebra::Vector3;
 
 use crate::kernel::quadrature::Rule;
 
-pub use angles::Angles;
+pub use angles::{AngleList, Angles};
 pub use family::Family;
 use family::Terms;
 pub use measured::{measured, measured_names};
@@ -70,7 +70,7 @@ impl Shape {
     fn of(parts: Parts) -> Self {
         let instrument = parts.at(&Angles::instrument()).map(|value| PI * value);
         let mut shape = Self { parts, instrument, albedos: [1.0, 0.0] };
-        shape.albedos = bihemispherical(|angles| shape.at(angles));
+        shape.albedos = shape.at_each(&HEMISPHERES.0).map(|reflections| bihemispherical(&reflections));
         shape
     }
 
@@ -88,6 +88,26 @@ impl Shape {
         let [body, surface] = self.parts.at(angles);
         let body = body / self.instrument[0];
         [body, surface - self.instrument[1] * body]
+    }
+
+    /// Body and surface for each of many pairs of directions, as [`Shape::at`] returns them, several at once.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::sheet::{AngleList, Angles, Family, Shape};
+    /// let shape = Shape::from(Family { specular_weight: 0.5, roughness: 0.4, ..Family::default() });
+    /// let [body, surface] = shape.at_each(&AngleList::from_iter([Angles::instrument(); 3]));
+    /// assert!((std::f64::consts::PI * body[2] - 1.0).abs() < 1e-12 && surface[2].abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn at_each(&self, angles: &AngleList) -> [Vec<f64>; 2] {
+        let [mut bodies, mut surfaces] = self.parts.at_each(angles);
+        let [of_body, of_surface] = self.instrument;
+        for (body, surface) in bodies.iter_mut().zip(&mut surfaces) {
+            *body /= of_body;
+            *surface -= of_surface * *body;
+        }
+        [bodies, surfaces]
     }
 
     /// Weight of the body in a sheet of this albedo, which is also its 45°:0° reflectance factor.
@@ -122,24 +142,25 @@ impl Parts {
     fn at(&self, angles: &Angles) -> [f64; 2] {
         match self {
             Self::Family(terms) => terms.at(angles),
-            Self::Table(table) => table.at(angles),
+            Self::Table(table) => table.at(&angles.place),
+        }
+    }
+
+    fn at_each(&self, angles: &AngleList) -> [Vec<f64>; 2] {
+        match self {
+            Self::Family(terms) => terms.at_each(angles),
+            Self::Table(table) => table.at_each(angles),
         }
     }
 }
 
-/// Albedos of two reflections: averages over cosine-weighted incidence and exit.
-fn bihemispherical(reflections: impl Fn(&Angles) -> [f64; 2]) -> [f64; 2] {
-    let mut sums = [0.0; 2];
-    for (angles, weight) in HEMISPHERES.iter() {
-        let values = reflections(angles);
-        sums[0] += weight * values[0];
-        sums[1] += weight * values[1];
-    }
-    sums
+/// Albedo of a reflection, given for all [`HEMISPHERES`]: the average over cosine-weighted incidence and exit.
+fn bihemispherical(reflections: &[f64]) -> f64 {
+    reflections.iter().zip(&HEMISPHERES.1).map(|(value, weight)| weight * value).sum()
 }
 
 /// All pairs of directions of incidence and exit, with their weights in the albedo.
-static HEMISPHERES: LazyLock<Vec<(Angles, f64)>> = LazyLock::new(|| {
+static HEMISPHERES: LazyLock<(AngleList, Vec<f64>)> = LazyLock::new(|| {
     let rule = Rule::gauss_legendre(COSINES);
     // in the square of the cosine the weight is constant
     let cosines: Vec<(f64, f64)> =
@@ -160,7 +181,7 @@ static HEMISPHERES: LazyLock<Vec<(Angles, f64)>> = LazyLock::new(|| {
             all.extend(azimuths.iter().map(pair));
         }
     }
-    all
+    all.into_iter().unzip()
 });
 
 #[cfg(test)]

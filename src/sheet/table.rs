@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use super::angles::Angles;
+use super::angles::AngleList;
 use super::place::{ANGLES, AZIMUTHS, PARTS, Place};
 
 /// Body and surface of one material.
@@ -27,19 +27,27 @@ impl Table {
         Self(table.into())
     }
 
-    pub(super) fn at(&self, angles: &Angles) -> [f64; 2] {
+    /// Body and surface at the place of each of many pairs of directions.
+    pub(super) fn at_each(&self, angles: &AngleList) -> [Vec<f64>; 2] {
+        let (body, surface) = angles.places.iter().map(|place| self.at(place).into()).unzip();
+        [body, surface]
+    }
+
+    /// Body and surface at a place.
+    pub(super) fn at(&self, place: &Place) -> [f64; 2] {
         const STEPS: [usize; 2] = [PARTS * AZIMUTHS * ANGLES, PARTS * AZIMUTHS];
-        let Place { first, into: [a, b, c] } = angles.place;
-        let mut sums = [0.0_f32; PARTS];
+        let Place { first, into: [a, b, c] } = *place;
+        // of one azimuth, then of the next
+        let mut sums = [0.0_f32; 2 * PARTS];
         let corners =
             [(0, 0, (1.0 - a) * (1.0 - b)), (0, 1, (1.0 - a) * b), (1, 0, a * (1.0 - b)), (1, 1, a * b)];
         for (light, eye, weight) in corners {
             let start = first as usize + light * STEPS[0] + eye * STEPS[1];
-            if let [body, surface, next_body, next_surface] = self.0[start..start + 2 * PARTS] {
-                sums[0] += weight * (body + c * (next_body - body));
-                sums[1] += weight * (surface + c * (next_surface - surface));
+            if let Some(values) = self.0[start..].first_chunk::<{ 2 * PARTS }>() {
+                sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
             }
         }
-        sums.map(f64::from)
+        let [body, surface, next_body, next_surface] = sums;
+        [body + c * (next_body - body), surface + c * (next_surface - surface)].map(f64::from)
     }
 }

@@ -17,7 +17,7 @@ use super::pooling::Pooling;
 use crate::geometry::Fold;
 use crate::kernel::quadrature::{Lagrange, Rule};
 use crate::kernel::wedge::Wedge;
-use crate::sheet::{Angles, Shape};
+use crate::sheet::{AngleList, Angles, Shape};
 
 /// Boundaries of the rows of patches, as fractions of the panel's depth.
 const EDGES: [f64; 5] = [0.0, 0.1, 0.3, 0.6, 1.0];
@@ -43,9 +43,9 @@ const NODES: usize = 7;
 pub struct Patches {
     panels: [Panel; 2],
     /// Angles of the distinct [`PAIRS`] of directions, by row of patches.
-    between: Vec<Angles>,
+    between: AngleList,
     /// The same for panel 1 if its shape differs.
-    between_1: Option<Vec<Angles>>,
+    between_1: Option<AngleList>,
     /// True if both panels send the same: the sun is on the bisecting plane of a symmetric fold.
     alike: bool,
     pooling: Pooling,
@@ -58,9 +58,9 @@ struct Panel {
     /// π times the form factors from each patch to those of the other panel.
     factors: Vec<f32>,
     /// From the sun towards each patch of the other panel, by row and direction.
-    from_sun: Vec<Angles>,
+    from_sun: AngleList,
     /// From each patch of the other panel towards the eye, by patch.
-    to_eye: Vec<Angles>,
+    to_eye: AngleList,
 }
 
 /// Body and surface reflection of a shape at a list of angles.
@@ -151,7 +151,7 @@ impl WithSimd for Radiances<'_> {
         let sending = &panels[..if patches.alike { 1 } else { 2 }];
         let sun: Vec<Parts> = sending.iter().map(|panel| Parts::of(shape, &panel.from_sun)).collect();
         let eye = panels.each_ref().map(|panel| Parts::of(shape, &panel.to_eye));
-        let all = |between: &Vec<Angles>| Parts::of(shape, between).of_pairs();
+        let all = |between: &AngleList| Parts::of(shape, between).of_pairs();
         let between = [Some(&patches.between), patches.between_1.as_ref()].map(|between| between.map(all));
         let buffer = |parts: &Parts| vec![0.0; parts.body.len()];
         let mut matrices: Vec<Vec<f32>> = between.iter().flatten().map(buffer).collect();
@@ -197,9 +197,9 @@ fn total(light: &[Vec<f32>]) -> f64 {
 }
 
 impl Parts {
-    fn of(shape: &Shape, angles: &[Angles]) -> Self {
-        let (body, surface) =
-            angles.iter().map(|angles| shape.at(angles).map(|value| value as f32).into()).unzip();
+    fn of(shape: &Shape, angles: &AngleList) -> Self {
+        let [body, surface] =
+            shape.at_each(angles).map(|values| values.into_iter().map(|value| value as f32).collect());
         Self { body, surface }
     }
 
@@ -253,9 +253,8 @@ impl Panel {
         let unit = frame.width / COLS as f64;
         let row = |depth: f64, n: usize| EDGES[n] * depth / unit..EDGES[n + 1] * depth / unit;
         let (mut factors, mut shifts) = (vec![0.0_f32; COUNT * COUNT], [0.0; COLS]);
-        let (mut from_sun, mut to_eye) = (Vec::new(), Vec::new());
+        let mut to_eye = AngleList::default();
         for (i, to) in to.iter().enumerate() {
-            from_sun.extend(to.iter().map(|to| Angles::new(&frame.sun, to)));
             let here = row(frame.depth, i);
             for j in 0..ROWS {
                 wedge.exchange(&here, &row(frame.other_depth, j), &mut shifts);
@@ -270,6 +269,7 @@ impl Panel {
                 to_eye.extend((0..COUNT).map(|k| Angles::new(&to[direction(col, k)], &eye)));
             }
         }
+        let from_sun = to.iter().flatten().map(|to| Angles::new(&frame.sun, to)).collect();
         Self { lit: frame.lit(), factors, from_sun, to_eye }
     }
 
@@ -352,11 +352,8 @@ fn directions(frame: &Frame) -> Vec<Vec<Vector3<f64>>> {
 }
 
 /// Angles of the distinct pairs of directions, by row of patches.
-fn pairs(to: &[Vec<Vector3<f64>>]) -> Vec<Angles> {
-    let of_row = |to: &Vec<Vector3<f64>>| {
-        PAIRS.distinct.iter().map(|&(a, b)| Angles::new(&to[a], &to[b])).collect::<Vec<_>>()
-    };
-    to.iter().flat_map(of_row).collect()
+fn pairs(to: &[Vec<Vector3<f64>>]) -> AngleList {
+    to.iter().flat_map(|to| PAIRS.distinct.iter().map(|&(a, b)| Angles::new(&to[a], &to[b]))).collect()
 }
 
 /// Pairs of directions at a row of patches with distinct reflection: reflection is reciprocal, and unchanged

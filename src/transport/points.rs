@@ -15,7 +15,7 @@ use super::frame::Frame;
 use super::pooling::Pooling;
 use crate::geometry::Fold;
 use crate::kernel::quadrature::Rule;
-use crate::sheet::{Angles, Shape};
+use crate::sheet::{AngleList, Angles, Shape};
 
 /// Numbers of points and directions.
 #[derive(Clone, Copy)]
@@ -31,24 +31,23 @@ const ORDERS: Orders = Orders { points: [8, 6], directions: [8, 10] };
 
 /// The points of both panels, with all directions of light that reaches the eye by one or two reflections.
 pub struct Points {
-    points: Vec<Sight>,
+    /// Irradiance from the sun of each point's panel and of the other.
+    lit: Vec<[f64; 2]>,
+    /// From the sun to the eye, by point.
+    from_sun: AngleList,
+    /// All paths of light with two reflections, by point, each with as many.
+    ways: Ways,
     pooling: Pooling,
 }
 
-/// Light from one point to the eye.
-struct Sight {
-    /// Irradiance from the sun of this point's panel and of the other.
-    lit: [f64; 2],
-    from_sun: Angles,
-    directions: Vec<Way>,
-}
-
-/// A path of light with two reflections.
-struct Way {
-    at_other: Angles,
-    at_point: Angles,
+/// Paths of light with two reflections.
+#[derive(Default)]
+struct Ways {
+    /// Reflection by the other panel, and then at the point.
+    at_other: AngleList,
+    at_point: AngleList,
     /// Cosine of incidence times solid angle.
-    weight: f64,
+    weights: Vec<f64>,
 }
 
 impl Points {
@@ -62,88 +61,92 @@ impl Points {
             |order: usize| Rule::gauss_legendre(order).on(0.0, 1.0).map(|(x, _)| x).collect::<Vec<_>>();
         let [out, along] = points.map(shares);
         let rules = directions.map(Rule::gauss_legendre);
-        let mut points = Vec::with_capacity(2 * out.len() * along.len());
+        let count = 2 * out.len() * along.len();
+        let (mut lit, mut from_sun) = (Vec::with_capacity(count), AngleList::default());
+        let mut ways = Ways::default();
         for (here, other) in [(&frames[0], &frames[1]), (&frames[1], &frames[0])] {
-            for out in &out {
-                for along in &along {
-                    let place = [out * here.depth, (along - 0.5) * here.width];
-                    points.push(Sight::new(here, other, place, &rules, fold.is_flat()));
+            for place in out.iter().flat_map(|out| along.iter().map(move |along| (out, along))) {
+                let place = [place.0 * here.depth, (place.1 - 0.5) * here.width];
+                let to_eye = here.to_eye(place);
+                lit.push([here.lit(), other.lit()]);
+                from_sun.extend([Angles::new(&here.sun, &to_eye)]);
+                if !fold.is_flat() {
+                    ways.add(here, other, place, &to_eye, &rules);
                 }
             }
         }
-        Self { points, pooling: Pooling::smooth(fold, &out, &along) }
+        let pooling = Pooling::smooth(fold, &out, &along);
+        Self { lit, from_sun, ways, pooling }
     }
 
     /// Facet means of the radiance towards the eye minus that of a Lambertian sheet: facets by albedos.
     #[must_use]
     pub fn departures(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
-        let mut values = Array2::zeros((self.points.len(), albedos.len()));
-        for (mut row, sight) in values.outer_iter_mut().zip(&self.points) {
-            let once = shape.at(&sight.from_sun);
-            let twice = sight.twice(shape);
+        let mut values = Array2::zeros((self.lit.len(), albedos.len()));
+        let [body, surface] = shape.at_each(&self.from_sun);
+        let twice = self.ways.twice(shape, self.lit.len());
+        for (point, (mut row, lit)) in values.outer_iter_mut().zip(&self.lit).enumerate() {
+            let twice = twice[point];
             for (value, &albedo) in row.iter_mut().zip(albedos) {
                 let (r, lambertian) = (shape.reflectance_factor_45_0(albedo), albedo * FRAC_1_PI);
-                let once = r * once[0] + once[1] - lambertian;
+                let once = r * body[point] + surface[point] - lambertian;
                 let twice = r * (r * twice[0] + twice[1]) + twice[2] - lambertian * lambertian * twice[3];
-                *value = PI * (sight.lit[0] * once + sight.lit[1] * twice);
+                *value = PI * (lit[0] * once + lit[1] * twice);
             }
         }
         self.pooling.pool(&values)
     }
 }
 
-impl Sight {
-    fn new(here: &Frame, other: &Frame, place: [f64; 2], rules: &[Rule; 2], flat: bool) -> Self {
-        let to_eye = here.to_eye(place);
-        let from_sun = Angles::new(&here.sun, &to_eye);
-        let directions = if flat { Vec::new() } else { directions(here, &other.sun, place, &to_eye, rules) };
-        Self { lit: [here.lit(), other.lit()], from_sun, directions }
-    }
-
-    /// Doubly reflected light per π times the other panel's irradiance: both by the body, one by each, both
-    /// by the surface; and for two reflections of 1/sr.
-    fn twice(&self, shape: &Shape) -> [f64; 4] {
-        let mut sums = [0.0; 4];
-        for Way { at_other, at_point, weight } in &self.directions {
-            let ([body, surface], [next_body, next_surface]) = (shape.at(at_other), shape.at(at_point));
-            sums[0] += weight * body * next_body;
-            sums[1] += weight * (body * next_surface + surface * next_body);
-            sums[2] += weight * surface * next_surface;
-            sums[3] += weight;
-        }
-        sums
-    }
-}
-
-/// Directions from which light of the other panel reaches a point.
-fn directions(
-    here: &Frame,
-    other_sun: &Vector3<f64>,
-    [out, along]: [f64; 2],
-    to_eye: &Vector3<f64>,
-    [across, sideways]: &[Rule; 2],
-) -> Vec<Way> {
-    let Frame { sin, cos, .. } = *here;
-    let opening = sin.atan2(cos);
-    // from the crease to the outer edge of the other panel
-    let edge = ((here.other_depth / out - cos) / sin).atan();
-    let mut directions = Vec::with_capacity(across.nodes.len() * sideways.nodes.len());
-    for (psi, weight_across) in across.on(opening - 0.5 * PI, edge) {
-        let away = out * sin / psi.cos();
-        let [low, high] = [-0.5, 0.5].map(|end| end * here.width - along).map(|end| end / end.hypot(away));
-        for (side, weight) in sideways.on(low, high) {
-            let flat = (1.0 - side * side).sqrt();
-            let (slope, cosine) = (psi - opening).sin_cos();
-            let from = Vector3::new(flat * slope, side, flat * cosine);
-            let back = Vector3::new(-flat * psi.sin(), -side, flat * psi.cos());
-            directions.push(Way {
-                at_other: Angles::new(other_sun, &back),
-                at_point: Angles::new(&from, to_eye),
-                weight: weight_across * weight * flat * cosine,
-            });
+impl Ways {
+    /// Adds all directions from which light of the `other` panel reaches a point.
+    fn add(
+        &mut self,
+        here: &Frame,
+        other: &Frame,
+        [out, along]: [f64; 2],
+        to_eye: &Vector3<f64>,
+        [across, sideways]: &[Rule; 2],
+    ) {
+        let Frame { sin, cos, .. } = *here;
+        let opening = sin.atan2(cos);
+        // from the crease to the outer edge of the other panel
+        let edge = ((here.other_depth / out - cos) / sin).atan();
+        for (psi, weight_across) in across.on(opening - 0.5 * PI, edge) {
+            let away = out * sin / psi.cos();
+            let [low, high] =
+                [-0.5, 0.5].map(|end| end * here.width - along).map(|end| end / end.hypot(away));
+            for (side, weight) in sideways.on(low, high) {
+                let flat = (1.0 - side * side).sqrt();
+                let (slope, cosine) = (psi - opening).sin_cos();
+                let from = Vector3::new(flat * slope, side, flat * cosine);
+                let back = Vector3::new(-flat * psi.sin(), -side, flat * psi.cos());
+                self.at_other.extend([Angles::new(&other.sun, &back)]);
+                self.at_point.extend([Angles::new(&from, to_eye)]);
+                self.weights.push(weight_across * weight * flat * cosine);
+            }
         }
     }
-    directions
+
+    /// Doubly reflected light per π times the other panel's irradiance, at each of the points: both by the
+    /// body, one by each, both by the surface; and for two reflections of 1/sr.
+    fn twice(&self, shape: &Shape, points: usize) -> Vec<[f64; 4]> {
+        let [body, surface] = shape.at_each(&self.at_other);
+        let [next_body, next_surface] = shape.at_each(&self.at_point);
+        let of_point = self.weights.len() / points;
+        let twice = |point: usize| {
+            let mut sums = [0.0; 4];
+            for n in point * of_point..(point + 1) * of_point {
+                let weight = self.weights[n];
+                sums[0] += weight * body[n] * next_body[n];
+                sums[1] += weight * (body[n] * next_surface[n] + surface[n] * next_body[n]);
+                sums[2] += weight * surface[n] * next_surface[n];
+                sums[3] += weight;
+            }
+            sums
+        };
+        (0..points).map(twice).collect()
+    }
 }
 
 #[cfg(test)]
