@@ -1,12 +1,13 @@
 //! A nearby lamp in place of the sun.
 
 use super::{AUTO, Effect, Expectation, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
+use crate::error::counted;
 use crate::estimate::photograph::StatedScene;
 
 /// Panel depth divided by the distance of the lamp that lights the sheet; 0 for the sun.
 pub static NEARNESS: Unknown = Unknown {
     name: "nearness",
-    description: "Depth of a panel over the distance of the lamp that lights it",
+    description: "Depth of a panel divided by the distance of the lamp that lights it; 0 for the sun",
     unit: None,
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -21,10 +22,8 @@ pub static NEARNESS: Unknown = Unknown {
             ideal: |_| 0.0,
             least: 0.02,
             words: |Fitted { value, .. }, _| {
-                format!(
-                    "light falls off over the panels, like that of a lamp {:.0} panel depths away",
-                    value.abs().recip()
-                )
+                let away = counted(format_args!("{:.0}", value.abs().recip()), "panel depth");
+                format!("light falls off over the panels, like that of a lamp {away} away")
             },
             remedy: "photograph the sheet in the sun, or move the lamp further away",
         }),
