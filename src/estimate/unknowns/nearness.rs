@@ -1,7 +1,6 @@
 //! A nearby lamp in place of the sun.
 
 use super::{AUTO, Effect, Expectation, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::error::counted;
 use crate::estimate::photograph::StatedScene;
 
 /// Panel depth divided by the distance of the lamp that lights the sheet; 0 for the sun.
@@ -22,8 +21,12 @@ pub static NEARNESS: Unknown = Unknown {
             ideal: |_| 0.0,
             least: 0.02,
             words: |Fitted { value, .. }, _| {
-                let away = counted(format_args!("{:.0}", value.abs().recip()), "panel depth");
-                format!("light falls off over the panels, like that of a lamp {away} away")
+                let depths = value.abs().recip();
+                let away = match depths.round() > 1.0 {
+                    true => format!("{depths:.0} panel depths away"),
+                    false => "no further than a panel's depth away".to_owned(),
+                };
+                format!("light falls off over the panels, like that of a lamp {away}")
             },
             remedy: "photograph the sheet in the sun, or move the lamp further away",
         }),
