@@ -139,7 +139,7 @@ impl Calibration {
 fn check(patch: &Patch, channels: usize) -> Result<()> {
     let Patch { name, measured, standard_error, expected } = patch;
     if [measured, standard_error, expected].iter().any(|values| values.len() != channels) {
-        return Err(Error::Numeric(format!("patch '{name}' lacks some of the {channels} channels")));
+        return Err(Error::Numeric(format!("patch '{name}' does not have one number per channel")));
     }
     if expected.iter().any(|value| *value <= 0.0) {
         return Err(Error::Numeric(format!("patch '{name}' is expected to be black")));

@@ -22,7 +22,7 @@ use notes::Notes;
 pub use served::{Reply, ServedFile, ask_on_page};
 pub use surplus::refuse;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 pub use crate::message::one_line;
 use crate::message::printable;
 pub use crate::progress::say;
@@ -190,7 +190,7 @@ fn start_threads(count: Option<u16>) -> Result<()> {
     let count = count.map(usize::from).or_else(in_environment).unwrap_or_else(all);
     // running threads abort the program if the stack of a later one leaves them no memory
     let room = LEAST_ROOM + STACK * count as u64;
-    room::ask(room, &format!("a run on {count} threads"), "use fewer with --threads")?;
+    room::ask(room, &format!("a run on {}", counted(count, "thread")), "use fewer with --threads")?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count);
     pool.build_global().map_err(|error| {
         Error::Numeric(format!(

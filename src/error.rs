@@ -1,6 +1,7 @@
 //! Errors of the five tools: where, what is wrong, and what to do.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::io;
 
 /// Everything that can go wrong, each in one line a user can act on.
@@ -231,16 +232,12 @@ impl Error {
     }
 
     /// An I/O error with its file.
-    pub fn file(path: impl std::fmt::Display, source: io::Error) -> Self {
+    pub fn file(path: impl Display, source: io::Error) -> Self {
         Self::File { path: path.to_string(), source }
     }
 
     /// An unusable picture file, with the problem and the remedy.
-    pub fn picture(
-        path: &std::path::Path,
-        problem: impl std::fmt::Display,
-        remedy: impl Into<String>,
-    ) -> Self {
+    pub fn picture(path: &std::path::Path, problem: impl Display, remedy: impl Into<String>) -> Self {
         Self::Picture {
             path: path.display().to_string(),
             problem: problem.to_string(),
@@ -273,7 +270,7 @@ impl Error {
     }
 
     /// An invalid field of a record. A long problem is shortened, as it may quote a whole array.
-    pub fn field(field: impl Into<String>, problem: impl std::fmt::Display) -> Self {
+    pub fn field(field: impl Into<String>, problem: impl Display) -> Self {
         const LETTERS: usize = 400;
         Self::Field { field: field.into(), problem: cut(&problem.to_string(), LETTERS).into_owned() }
     }
@@ -293,6 +290,31 @@ fn in_words(error: &io::Error) -> String {
 
 /// A result with the tools' own error.
 pub type Result<T> = std::result::Result<T, Error>;
+
+/// A number with what it counts: `1 facet`, `3 facets`, `2 patches`, `2 spectra`.
+///
+/// # Arguments
+/// - `count`: a number, or text that shows one.
+/// - `one`: the noun in the singular.
+///
+/// # Example
+/// ```
+/// use vfold::error::counted;
+/// assert_eq!([counted(1, "facet"), counted(0, "facet")], ["1 facet", "0 facets"]);
+/// assert_eq!([counted(2, "patch"), counted(3, "spectrum")], ["2 patches", "3 spectra"]);
+/// ```
+#[must_use]
+pub fn counted(count: impl Display, one: &str) -> String {
+    let count = count.to_string();
+    if count == "1" {
+        return format!("1 {one}");
+    }
+    match one.strip_suffix("um") {
+        Some(stem) => format!("{count} {stem}a"),
+        None if one.ends_with("ch") || one.ends_with("ss") => format!("{count} {one}es"),
+        None => format!("{count} {one}s"),
+    }
+}
 
 /// A text of at most `letters` characters: the beginning and the end of a longer one.
 #[must_use]

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
+use crate::error::counted;
 use crate::message::one_line;
 
 /// Runs shorter than this show nothing.
@@ -135,7 +136,7 @@ impl fmt::Display for Count {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.of {
             Some(of) if of != self.samples => write!(f, "{} of {of} samples", self.samples),
-            _ => write!(f, "{} samples", self.samples),
+            _ => f.write_str(&counted(self.samples, "sample")),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Measured facets, and which of them can be used.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::forward::{FacetModel, FacetValues};
 
 /// A picture with no more light than this in all facets is dark: squares of such numbers underflow.
@@ -21,12 +21,13 @@ pub struct Measured<'a> {
 /// [`Error::Field`] with this `name` if not.
 pub fn check_shape(name: &str, values: &FacetValues, [facets, channels]: [usize; 2]) -> Result<()> {
     if values.len() != facets {
-        return Err(Error::field(name, format!("{} facets, but the scene has {facets}", values.len())));
+        let problem = format!("{}, but the scene has {facets}", counted(values.len(), "facet"));
+        return Err(Error::field(name, problem));
     }
     let other = values.channels();
     if other != channels && values.facets().any(|facet| facet.is_some()) {
-        let problem =
-            format!("{other} channels, but the scene has {channels}: its camera's in every picture");
+        let other = counted(other, "channel");
+        let problem = format!("{other}, but the scene has {channels}: its camera's in every picture");
         return Err(Error::field(name, problem));
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::forward::{FacetModel, FacetValues};
 use crate::solve::Eigen;
 
@@ -50,7 +50,7 @@ impl Noise {
             NoiseSource::Stated(sd) => Ok(deviations(rgb, |_| *sd, self.model_error)),
             NoiseSource::OfFacets(sd) => {
                 if sd.len() != rgb.len() {
-                    let problem = format!("{} facets, but facet_rgb has {}", sd.len(), rgb.len());
+                    let problem = format!("{}, but facet_rgb has {}", counted(sd.len(), "facet"), rgb.len());
                     return Err(Error::field("facet_sd", problem));
                 }
                 // facets with too few pixels to determine their noise are as uncertain as the noisiest one

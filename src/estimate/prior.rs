@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 use super::built_in::{TabledClass, classes_on};
 use super::classes::{divide, moments, shrunk};
 use super::gaussian::{Gaussian, logit};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 
 /// Correlation length and standard deviation, in logit, of deviations of spectra from the set behind a prior,
 /// if all spectra are one Gaussian; also used to distinguish classes.
@@ -142,7 +142,8 @@ impl Prior {
         let beyond = Arc::new(beyond_class(wavelengths_nm));
         let classes = classes.map_or_else(|| divide(&logits, &matern), <[usize]>::to_vec);
         if classes.len() != spectra.len() {
-            return Err(Error::Numeric(format!("{} classes for {} spectra", classes.len(), spectra.len())));
+            let (classes, spectra) = (counted(classes.len(), "class"), spectra.len());
+            return Err(Error::Numeric(format!("{classes} for {spectra} spectra")));
         }
         let (mean, covariance) = moments(&logits, &RowDVector::from_element(spectra.len(), 1.0));
         let class = |members: Vec<usize>| {

@@ -8,7 +8,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::interior_point::InteriorPoint;
 use super::smooth::{ITERATION_LIMIT, second_difference_gram, termination};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::estimate::measured::{Measured, usable_facets};
 use crate::estimate::{Estimate, Exposure};
 use crate::forward::FacetModel;
@@ -98,9 +98,9 @@ impl Components {
         let least = ROUNDING * order.first().map_or(0.0, |first| eigen.values[*first]);
         order.retain(|k| eigen.values[*k] > least);
         if order.len() < count || count == 0 {
-            let has = order.len();
+            let (count, has) = (counted(count, "component"), order.len());
             return Err(Error::Numeric(format!(
-                "{count} components requested, but set, camera and lights have {has}; \
+                "{count} requested, but set, camera and lights have {has}; \
                  give --components {has} or fewer"
             )));
         }
@@ -183,10 +183,8 @@ impl Space {
         let factor = Cholesky::new(seen.tr_mul(&seen) + smoothness * rough).map(|factor| factor.l());
         let known = |factor: &DMatrix<f64>| factor.diagonal().min() > KNOWN * factor.diagonal().max();
         let factor = factor.filter(known).ok_or_else(|| {
-            let count = basis.ncols();
-            Error::Numeric(format!(
-                "{count} components are more than the values determine; give fewer or --smoothness"
-            ))
+            let count = counted(basis.ncols(), "component");
+            Error::Numeric(format!("the values do not determine {count}; give fewer, or --smoothness"))
         })?;
         let values = DVector::from_column_slice(&sheet.values) / exposure;
         let (mut spectra, mut free) = (basis.transpose(), seen.tr_mul(&values));

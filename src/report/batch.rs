@@ -3,7 +3,7 @@
 use super::html::Html;
 use super::words::digits;
 use super::{Gallery, SECTIONS_MAX};
-use crate::error::Result;
+use crate::error::{Result, counted};
 use crate::score::{Statistics, Summary};
 
 /// The section on all samples; none for a single sample with its own section.
@@ -39,8 +39,8 @@ pub(super) fn section(gallery: &Gallery, summary: &Summary) -> Result<Option<Htm
 
 fn counts(gallery: &Gallery, summary: &Summary) -> Html {
     let (_, failed) = gallery.failures();
-    let mut text =
-        format!("{} samples, {} scored, {failed} without a result.", summary.samples(), summary.scored());
+    let (all, scored) = (counted(summary.samples(), "sample"), summary.scored());
+    let mut text = format!("{all}, {scored} scored, {failed} without a result.");
     if gallery.seen() > SECTIONS_MAX {
         text.push_str(&format!(" The worst {SECTIONS_MAX} are shown below."));
     }

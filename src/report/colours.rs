@@ -31,7 +31,7 @@ pub(super) fn section(estimate: &EstimateRecord, scene: &Scene, view: &View) -> 
         std::iter::once(space.to_owned()).chain([0, 1, 2].map(value)).map(Html::from).collect::<Vec<_>>()
     };
     let rows = [
-        row("CIE XYZ, white 100", XYZ, |colour| colour.xyz),
+        row("CIE XYZ, Y of white 100", XYZ, |colour| colour.xyz),
         row("CIELAB", LAB, |colour| colour.lab),
         row("sRGB, 0 to 1", SRGB, |colour| colour.srgb),
     ];

@@ -87,7 +87,10 @@ fn spectrum(sheet: &Sheet, view: &View) -> Result<Html> {
 fn residuals(sheet: &Sheet) -> Result<Option<Html>> {
     let Some(svg) = sheet.residuals_svg()? else { return Ok(None) };
     let words = format!("residuals of the facets of {}", sheet.curve.name);
-    Ok(Some(Html::figure(Html::drawing(&svg, &words), "Without a pattern if the model is right.")))
+    Ok(Some(Html::figure(
+        Html::drawing(&svg, &words),
+        "Measured minus estimated facets: without a pattern if the model is right.",
+    )))
 }
 
 /// The candidates for the light, if not stated.
@@ -108,7 +111,7 @@ fn fitted(estimate: &EstimateRecord) -> Option<Html> {
     };
     let rows: Vec<_> = estimate.fits().map(row).collect();
     let headings = ["what", "value ± standard deviation", "determined by"];
-    (!rows.is_empty()).then(|| Html::table("Fitted along with the spectrum", &headings, rows))
+    (!rows.is_empty()).then(|| Html::table("Fitted together with the spectrum", &headings, rows))
 }
 
 /// Fields without their own drawing or table.

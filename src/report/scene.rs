@@ -44,10 +44,10 @@ fn section(scene: &Scene) -> Result<Html> {
         parts.push(Html::element("pre", &[], Html::element("code", &[], Html::lines(&pipeline(&history)))));
         parts.push(folded("Versions of the tools", Html::table("Versions", &["tool", "version"], versions)));
     }
-    parts.push(folded("All numbers of the scene", pairs("What was decided", settings.collect())));
+    parts.push(folded("All numbers of the scene", pairs("Settings of the scene", settings.collect())));
     if !skipped.is_empty() {
-        let table = Html::table("What was not needed", &["what", "count", "why"], skipped);
-        parts.push(folded("What was not computed", table));
+        let table = Html::table("Work that was skipped", &["what", "count", "why"], skipped);
+        parts.push(folded("What was not computed, because the result does not need it", table));
     }
     Ok(Html::element("section", &[], parts))
 }

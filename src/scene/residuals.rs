@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::Setting;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::estimate::measured::check_shape;
 use crate::estimate::unknowns::Unknown;
 use crate::forward::{FacetModel, FacetValues};
@@ -37,7 +37,8 @@ pub fn residuals(sample: &Sample, estimate: &EstimateRecord, scene: &Scene) -> R
 /// The estimated facets, facet by channel.
 fn facets(estimate: &EstimateRecord, model: &FacetModel) -> Result<DMatrix<f64>> {
     if estimate.reflectance.len() != model.bands() {
-        let problem = format!("{} values for {} wavebands", estimate.reflectance.len(), model.bands());
+        let values = counted(estimate.reflectance.len(), "value");
+        let problem = format!("{values} for {} wavebands", model.bands());
         return Err(Error::field("estimate.reflectance", problem));
     }
     let missing = || Error::field("estimate.exposure", "missing; estimate the sample again");

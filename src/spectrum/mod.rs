@@ -36,7 +36,7 @@ pub use quantities::Sensitivities;
 pub use spec::{camera, illuminant, reflectances};
 pub use sun::Sun;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use grid::check_rising;
 use interpolation::sprague;
 use std::sync::Arc;
@@ -93,7 +93,8 @@ impl Spectrum {
         let name = name.into();
         check_rising(&wavelengths_nm)?;
         if wavelengths_nm.len() != values.len() {
-            let problem = format!("{} values for {} wavelengths", values.len(), wavelengths_nm.len());
+            let (values, wavelengths) = (counted(values.len(), "value"), wavelengths_nm.len());
+            let problem = format!("{values} for {wavelengths} wavelengths");
             return Err(Error::Spectrum { name, problem, remedy: "give one value per wavelength".into() });
         }
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {

@@ -8,21 +8,22 @@ use super::fields::BY_VKERNEL;
 use crate::error::{Error, Result};
 use crate::kernel::mesh::{Accuracy, KernelSource};
 
-/// How well the bounces are solved.
+/// How accurately the bounces were solved.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct AccuracyRecord {
-    /// Where they are solved, as `vkernel --mesh` names it: auto, facets, `ROWSxCOLS` or `CELLS`.
+    /// The mesh on which they were solved, as `vkernel --mesh` names it: auto, facets, `ROWSxCOLS` or
+    /// `CELLS`.
     mesh: String,
-    /// Relative error that facet means were allowed.
+    /// Largest relative error that was allowed for the mean over a facet.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     tolerance: f64,
-    /// Number of unknowns: of a fold those of one panel.
+    /// Number of unknowns of the solution; of a fold those of one panel.
     unknowns: usize,
-    /// Largest error of a facet mean, as estimated, relative to it, on shapes at least to a tenth of the mean
-    /// of all; null where no second solution tells.
+    /// Largest relative error of the mean over a facet, as estimated; on shapes, relative to at least a tenth
+    /// of the mean of all facets. Null if there was no second solution to compare with.
     #[schemars(range(min = 0))]
     facet_mean_error: Option<f64>,
-    /// Residual that Lanczos' method left, relative to the light.
+    /// Residual left by Lanczos' method, relative to the light.
     #[schemars(range(min = 0))]
     residual: f64,
     /// Form factors between flat patches, where the bounces were solved on them.
@@ -30,15 +31,15 @@ pub(super) struct AccuracyRecord {
     kernel: Option<KernelRecord>,
 }
 
-/// How form factors were found.
+/// How form factors were computed.
 #[derive(Serialize, Deserialize, JsonSchema)]
 struct KernelRecord {
-    /// As `vkernel --method` names it: exact, monte-carlo or midpoint.
+    /// The method, as `vkernel --method` names it: exact, monte-carlo or midpoint.
     method: String,
-    /// As `vkernel --sampling` names it: area or cosine.
+    /// What was sampled, as `vkernel --sampling` names it: area or cosine.
     #[serde(skip_serializing_if = "Option::is_none")]
     sampling: Option<String>,
-    /// Pairs of points a distinct entry, or rays a row of facets.
+    /// Number of pairs of points for each distinct form factor, or of rays for each row of facets.
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<u32>,
     /// Seed of the samples.

@@ -10,30 +10,30 @@ use super::{Corners, Sample};
 use crate::calibrate::{Calibration, Patch};
 use crate::error::Result;
 
-/// How a photograph's values were made those of the scene's camera.
+/// How a photograph's values were converted to those of the scene's camera.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CalibrationRecord {
-    /// What calibrated it: chart or white card.
+    /// What the photograph was calibrated with: chart or white card.
     by: &'static str,
     /// Rows and columns of its patches.
     grid: [usize; 2],
-    /// Cosine of the angle between the sun and its normal.
+    /// Cosine of the angle between the direction to the sun and the normal of the chart or card.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     cos: f64,
-    /// Its corners, [x, y] each, px of the upright picture.
+    /// Its four corners, [x, y] each, in pixels of the upright picture.
     corners: [[f64; 2]; 4],
-    /// Probability that the corners of a detected chart are right.
+    /// Probability that the corners are right, if the chart was detected rather than marked.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0, max = 1)))]
     detection_confidence: Option<f64>,
-    /// The exposure that it gives.
+    /// Exposure that follows from it: value of a perfect white diffuser that faces the sun.
     #[schemars(extend("exclusiveMinimum" = 0))]
     exposure: f64,
     /// Standard deviation of the exposure.
     #[schemars(range(min = 0))]
     exposure_sd: f64,
-    /// Constant, linear and quadratic coefficient of each channel: from the photograph's values to those of
-    /// the camera.
+    /// Constant, linear and quadratic coefficients of each channel, which convert the photograph's values to
+    /// those of the camera.
     coefficients: Vec<[f64; 3]>,
     /// Root mean square of the patches' residuals, one per channel.
     #[schemars(inner(range(min = 0)))]
@@ -47,11 +47,11 @@ pub struct CalibrationRecord {
 struct PatchRecord {
     /// Name.
     name: String,
-    /// Value in the photograph, one per channel.
+    /// Value in the photograph before calibration, one per channel.
     measured: Vec<f64>,
     /// Value in the scene's camera at exposure 1, one per channel.
     expected: Vec<f64>,
-    /// How far the calibrated value is off, as a share of what was expected, one per channel.
+    /// Error of the calibrated value, relative to the expected value, one per channel.
     residual: Vec<f64>,
 }
 

@@ -8,13 +8,13 @@ use serde::Serialize;
 
 use super::Sample;
 use super::fields::{LARGEST, finite};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::forward::FacetValues;
 
 /// Facet by channel; none for a facet that was not measured.
 pub(super) type Rows = Vec<Option<Vec<f64>>>;
 
-/// One value per channel, in the order of the camera's; null for a facet that was not measured.
+/// One value per channel, in the order of the camera's channels; null for a facet that was not measured.
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum ColoursRecord {
@@ -85,7 +85,7 @@ pub(super) fn values(name: &str, rows: &Rows) -> Result<FacetValues> {
 fn side_by_side(name: &str, pictures: &[Rows]) -> Result<Rows> {
     let facets = pictures[0].len();
     if let Some(other) = pictures.iter().find(|picture| picture.len() != facets) {
-        let problem = format!("{} facets in one picture, {facets} in another", other.len());
+        let problem = format!("{} in one picture, {facets} in another", counted(other.len(), "facet"));
         return Err(Error::field(name, problem));
     }
     let in_all = |facet: usize| {

@@ -7,10 +7,10 @@ use super::json_file;
 use crate::error::{Error, Result};
 use crate::image::Development;
 
-/// White balance and matrix, as a file tells them and a record keeps them; other fields are passed over.
+/// White balance and colour matrix that the camera applied; other fields are ignored.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct DevelopmentRecord {
-    /// Factor of each channel.
+    /// Factor by which the camera multiplied each channel.
     white_balance_gains: [f64; 3],
     /// Matrix from balanced camera values to linear sRGB, row by row.
     camera_to_linear_srgb: [[f64; 3]; 3],

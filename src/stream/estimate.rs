@@ -25,11 +25,11 @@ use crate::plot::spectra::Curve;
 use crate::solve::Termination;
 use crate::spectrum::formats::Measured;
 
-/// The estimated spectrum of a sheet. An estimate that another program makes needs wavelengths and
-/// reflectance alone.
+/// The estimated spectrum of a sheet. An estimate made by another program needs only wavelengths and
+/// reflectance.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct EstimateRecord {
-    /// As `vestimate --method` names it: interreflection, park or khan.
+    /// The method, as `vestimate --method` names it: interreflection, park or khan.
     #[serde(skip_deserializing)]
     method: String,
     /// The prior as `vestimate --prior` names it, or the basis of the components.
@@ -40,7 +40,7 @@ pub struct EstimateRecord {
     /// Reflectance, one per wavelength.
     #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
-    /// Exposure, known or fitted.
+    /// Exposure, stated or fitted: value of a perfect white diffuser that faces the sun.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exposure: Option<f64>,
     /// Root mean square of the residuals in units of their expected size: near 1 where the model is good.
@@ -50,10 +50,10 @@ pub struct EstimateRecord {
     /// Number of iterations.
     #[serde(skip_deserializing)]
     iterations: u32,
-    /// Why they ended.
+    /// Why the iterations ended.
     #[serde(skip_deserializing)]
     termination: Option<TerminationRecord>,
-    /// Standard deviation of the reflectance, one per wavelength; absent where the method does not know it.
+    /// Standard deviation of the reflectance, one per wavelength; absent if the method has no error bars.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub reflectance_sd: Option<Vec<f64>>,
@@ -65,8 +65,7 @@ pub struct EstimateRecord {
     #[serde(alias = "total_reflectance")]
     pub bihemispherical_albedo: Option<Vec<f64>>,
     /// Total radiance factor, one number per wavelength, of a sheet that probably fluoresces: what it
-    /// reflects and what it sends out itself under the light of the scene, as an instrument with this light
-    /// says.
+    /// reflects and what it emits in the light of the scene, as an instrument with this light measures it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub total_radiance_factor: Option<Vec<f64>>,
@@ -74,13 +73,13 @@ pub struct EstimateRecord {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub total_radiance_factor_sd: Option<Vec<f64>>,
-    /// What the sheet sends out itself, if it probably does.
+    /// The light that the sheet emits itself, if it probably fluoresces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluorescence: Option<FluorescenceRecord>,
-    /// Light from behind that comes through the sheet, if some probably does.
+    /// Light from behind that comes through the sheet, if there probably is any.
     #[serde(default, skip_serializing_if = "Option::is_none", skip_deserializing)]
     light_through: Option<LightThroughRecord>,
-    /// What was fitted along with the reflectance.
+    /// Quantities of the scene that were fitted together with the reflectance.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<Quantities<FittedRecord>>,
     /// The kind of day on which a photograph in daylight was taken.
@@ -89,24 +88,24 @@ pub struct EstimateRecord {
     /// The light, if it was not stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub light: Option<InferredLightRecord>,
-    /// Ids of the photographs of one sheet from which spectrum and error bars were estimated together, this
-    /// sample's among them; absent of a sample that was estimated alone.
+    /// Ids of the photographs of one sheet from which spectrum and error bars were estimated together,
+    /// including that of this sample; absent if it was estimated alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joined: Vec<String>,
     /// What is not ideal about the photograph, the most certain first. The estimate allows for it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<FindingRecord>,
-    /// Whether it can be trusted; absent if the method has no error bars.
+    /// Whether the estimate can be trusted; absent if the method has no error bars.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<VerdictRecord>,
-    /// What was not tried, or not determined by the facets of a photograph.
+    /// Searches that were not made, and quantities that the facets of the photograph do not determine.
     #[serde(default, skip_serializing_if = "Vec::is_empty", skip_deserializing)]
     skipped: Vec<SkippedRecord>,
     /// Covariance of the reflectance, `[wavelength][wavelength]`; with
     /// `vestimate --save covariance=FILE.npy`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Vec<Vec<f64>>>,
-    /// Assumed noise of the facets, by a method that weighs them.
+    /// Assumed noise of the facets, if the method weights facets by it.
     #[serde(skip_serializing_if = "Option::is_none")]
     noise: Option<NoiseRecord>,
 }
@@ -139,21 +138,21 @@ enum TerminationRecord {
     /// The optimality conditions hold.
     #[serde(rename = "converged")]
     Converged {
-        /// What is left of them.
+        /// By how much they are missed; 0 at the exact minimum.
         gradient_norm: f64,
     },
-    /// The limit on iterations was reached first.
+    /// The limit on iterations was reached before.
     #[serde(rename = "iteration limit")]
     IterationLimit,
-    /// Rounding is reached.
+    /// No step improves the estimate any more, because of rounding.
     #[serde(rename = "no progress")]
     NoProgress {
-        /// What is left of the gradient.
+        /// Norm of the gradient that is left; 0 at the exact minimum.
         gradient_norm: f64,
     },
 }
 
-/// A number of the scene as found, in the unit that its name says.
+/// A fitted quantity of the scene, in the unit that its name states.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct FittedRecord {
     /// Value.
@@ -170,7 +169,7 @@ pub struct FittedRecord {
 struct DayRecord {
     /// Clear, hazy (or under thin cloud), overcast, or shade under a blue sky.
     kind: String,
-    /// How probable that is.
+    /// Probability of that kind of day.
     #[schemars(range(min = 0, max = 1))]
     probability: f64,
 }

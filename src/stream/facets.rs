@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::geometry::{FacetGrid, Fold, Spacing};
 use crate::surfaces::Group;
 
-/// Where colour is measured.
+/// The parts of the surface on each of which one colour is measured.
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum FacetsRecord {
@@ -37,7 +37,7 @@ pub(super) struct GridRecord {
     spacing: Option<SpacingRecord>,
 }
 
-/// How deep rows are.
+/// How the depths of the rows are chosen.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum SpacingRecord {
@@ -52,7 +52,7 @@ pub(super) struct ListRecord {
     /// Number of facets.
     #[schemars(range(min = 1))]
     pub count: usize,
-    /// Facets with a name of their own.
+    /// Facets that have a name, by which their reflectance can be stated.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub groups: Vec<GroupRecord>,
 }

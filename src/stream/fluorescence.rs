@@ -7,16 +7,16 @@ use super::fields::finite;
 use crate::error::Result;
 use crate::estimate::fluorescence::Fluorescence;
 
-/// Light that the sheet sends out where it takes in light of shorter wavelengths, under the light of the
-/// scene.
+/// Fluorescence: light that the sheet emits because it absorbs light of shorter wavelengths, in the light of
+/// the scene.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct FluorescenceRecord {
-    /// Probability that there is any.
+    /// Probability that the sheet fluoresces.
     #[schemars(range(min = 0, max = 1))]
     pub probability: f64,
-    /// Wavelength at which most is sent out, nm.
+    /// Wavelength at which the sheet emits most, nm.
     pub peak_nm: f64,
-    /// What is sent out there, as a fraction of a white that reflects all light.
+    /// What it emits at that wavelength, relative to the light that a perfect white diffuser reflects there.
     #[schemars(range(min = 0))]
     pub size: f64,
     /// Standard deviation of the size.
@@ -39,10 +39,11 @@ impl FluorescenceRecord {
 /// Light from behind that comes through a thin sheet, added to what it reflects.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub(super) struct LightThroughRecord {
-    /// Probability that there is any.
+    /// Probability that any light comes through.
     #[schemars(range(min = 0, max = 1))]
     probability: f64,
-    /// What is sent out in the waveband with most of it, as a fraction of white.
+    /// The light through the sheet in the waveband with most of it, relative to the light that a perfect
+    /// white diffuser reflects.
     #[schemars(range(min = 0))]
     size: f64,
     /// Standard deviation of the size.

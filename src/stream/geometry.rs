@@ -9,7 +9,7 @@ use super::mesh::MeshRecord;
 use crate::error::{Error, Result};
 use crate::geometry::Fold;
 
-/// What is lit.
+/// The surface that is lit.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "lowercase")]
 pub(super) enum GeometryRecord {
@@ -17,7 +17,7 @@ pub(super) enum GeometryRecord {
     Fold(FoldRecord),
     /// Flat facets in space.
     Mesh(MeshRecord),
-    /// Facets of which nothing is known but their kernel.
+    /// Facets of unknown shape, of which only the kernel is known.
     Kernel,
 }
 
@@ -27,15 +27,14 @@ pub(super) struct FoldRecord {
     /// Angle between the panels, degrees; 180 is a flat sheet.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 180))]
     angle_deg: f64,
-    /// Standard deviation of that angle, degrees, where it is known, such as that of an angle found in a
-    /// photograph.
+    /// Standard deviation of that angle, degrees, if it is known, as it is if a photograph showed the angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     angle_sd_deg: Option<f64>,
     /// Extent of panel 0 along the crease and away from it, in any unit.
     #[schemars(inner(range(min = 0)))]
     panel: [f64; 2],
-    /// Extent of panel 1 away from the crease, in the same unit, where it is not that of panel 0.
+    /// Extent of panel 1 away from the crease, in the same unit, if it differs from that of panel 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     panel1_depth: Option<f64>,

@@ -17,14 +17,14 @@ const NO_MATTER: [(&str, &str, bool); 6] = [
     ("--verbose", "-v", false),
 ];
 
-/// What a tool was called with.
+/// A command that was run.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct HistoryRecord {
-    /// The tool.
+    /// Name of the tool.
     pub tool: String,
     /// Its version.
     pub version: String,
-    /// Its arguments, those left out that change no record.
+    /// Its arguments, without those that change no record.
     pub arguments: Vec<String>,
 }
 

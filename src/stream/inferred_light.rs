@@ -13,10 +13,10 @@ use crate::spectrum::UNKNOWN_LIGHT;
 /// Less probable candidates are omitted.
 const PROBABILITY_LEAST: f64 = 1e-3;
 
-/// The light as it was found along with the reflectance.
+/// The light, inferred together with the reflectance.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct InferredLightRecord {
-    /// What it may be, the most probable first; what is left out is less probable than one in a thousand.
+    /// Lights that it may be, the most probable first; lights with a probability below 0.001 are left out.
     pub candidates: Vec<CandidateRecord>,
     /// The expected relative power, one number per wavelength, its mean 1.
     #[schemars(inner(range(min = 0)))]
@@ -31,7 +31,7 @@ pub struct InferredLightRecord {
 pub struct CandidateRecord {
     /// Built-in name, or that of a column of `vestimate --illuminants`.
     pub name: String,
-    /// How probable it is.
+    /// Probability that it is this light.
     #[schemars(range(min = 0, max = 1))]
     pub probability: f64,
     /// Correlated colour temperature, K, of daylight and black bodies.

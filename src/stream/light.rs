@@ -14,7 +14,7 @@ use crate::geometry::{Fold, Light, LightSource, StandardSky};
 pub(super) enum LightRecord {
     /// The sun and a uniform sky on a fold.
     Sun(SunRecord),
-    /// On any other surface, and of other kinds on a fold.
+    /// Any sources around any surface.
     Sources(SourcesRecord),
 }
 
@@ -25,16 +25,16 @@ pub(super) struct SunRecord {
     tilt_deg: f64,
     /// Angle of the sun along the crease, degrees.
     slant_deg: f64,
-    /// Irradiance by the sun of a plane that faces it: 1, or 0 if the sky is alone.
+    /// Irradiance that the sun gives a plane that faces it: 1, or 0 if the sky is the only light.
     #[serde(default = "one")]
     #[schemars(range(min = 0, max = 1))]
     sun: f64,
-    /// Diffuse-to-direct ratio: irradiance by the sky of an open plane that faces the sun, relative to the
-    /// sun's if there is one.
+    /// Diffuse-to-direct ratio: irradiance that the sky gives an unobstructed plane facing the sun, relative
+    /// to that which the sun gives it, if there is a sun.
     #[schemars(range(min = 0))]
     sky: f64,
-    /// Irradiance of each panel by the sun, a plane that faces it having 1. Follows from the angles and is
-    /// not read.
+    /// Irradiance that the sun gives each panel, relative to a plane that faces it. It follows from the
+    /// angles, and is written but not read.
     #[serde(skip_deserializing)]
     #[schemars(inner(range(min = 0, max = 1)))]
     panel_irradiance: [f64; 2],
@@ -47,7 +47,7 @@ fn one() -> f64 {
 /// Sources around a surface.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct SourcesRecord {
-    /// The sources, at least one; illuminants are in their order, skies aside.
+    /// The sources, at least one. The illuminants are in the same order, skies left out.
     #[schemars(length(min = 1))]
     sources: Vec<SourceRecord>,
 }
@@ -64,7 +64,7 @@ enum SourceRecord {
         #[schemars(range(min = 0))]
         irradiance: f64,
     },
-    /// A lamp.
+    /// A small lamp, taken to be a point.
     Point {
         /// Where it is, in the unit of the vertices.
         at: [f64; 3],
@@ -75,46 +75,46 @@ enum SourceRecord {
         #[schemars(range(min = 0))]
         distance: f64,
     },
-    /// A lamp or a window of some size, alike bright all over and in all directions.
+    /// A large lamp or a window: a rectangle that is equally bright all over and in all directions.
     Area {
-        /// Corners of a rectangle, counter-clockwise seen from where it shines to, in the unit of the
-        /// vertices.
+        /// Corners of the rectangle, counter-clockwise as seen from the side that it lights, in the unit of
+        /// the vertices.
         corners: [[f64; 3]; 4],
-        /// Irradiance of a plane that faces its middle squarely at that distance.
+        /// Irradiance of a plane straight in front of its middle and parallel to it, at that distance.
         #[schemars(range(min = 0))]
         irradiance: f64,
         /// Distance at which it gives that irradiance, in the unit of the vertices.
         #[schemars(range(min = 0))]
         distance: f64,
     },
-    /// Light from everywhere alike, from below as well.
+    /// Light that is equal from all directions, also from below.
     UniformSky {
-        /// Irradiance of a plane that nothing hides.
+        /// Irradiance of an unobstructed plane.
         #[schemars(range(min = 0))]
         irradiance: f64,
     },
-    /// The sky of a dull day, brightest in the zenith, dark below the horizon.
+    /// An overcast sky, brightest at the zenith and dark below the horizon.
     OvercastSky {
         /// Direction towards the zenith.
         zenith: [f64; 3],
-        /// Irradiance of a plane that faces the zenith and that nothing hides.
+        /// Irradiance of an unobstructed plane that faces the zenith.
         #[schemars(range(min = 0))]
         irradiance: f64,
     },
-    /// One of the CIE's standard skies, dark below the horizon.
+    /// A CIE standard sky, dark below the horizon.
     StandardSky {
-        /// Its type.
+        /// Its type, 1 to 15.
         #[schemars(range(min = 1, max = 15))]
         number: usize,
         /// Direction towards the zenith.
         zenith: [f64; 3],
         /// Direction towards the sun, which may be hidden.
         sun: [f64; 3],
-        /// Irradiance of a plane that faces the zenith and that nothing hides.
+        /// Irradiance of an unobstructed plane that faces the zenith.
         #[schemars(range(min = 0))]
         irradiance: f64,
     },
-    /// Light of which nothing is known but how much each facet gets.
+    /// Light of which only the irradiance of each facet is known.
     #[serde(alias = "given")]
     PerFacet,
 }

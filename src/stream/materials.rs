@@ -7,7 +7,7 @@ use super::Scene;
 use super::fields::finite;
 use crate::error::{Error, Result};
 
-/// A group of facets of known reflectance, on the scene's wavelengths.
+/// A group of facets of known reflectance, at the wavelengths of the scene.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct Material {
     /// The group's name.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::surfaces::Shape;
 
-/// Flat facets in space, all of them: a mesh is small beside its response.
+/// Flat facets in space, all of which are listed.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct MeshRecord {
     /// Points, in any unit.
@@ -13,7 +13,7 @@ pub(super) struct MeshRecord {
     /// Three or four vertices of each face, counted from 0, counter-clockwise seen from the reflecting side.
     #[schemars(inner(length(min = 3, max = 4)))]
     pub faces: Vec<Vec<usize>>,
-    /// Whether the faces' backs are as many facets again.
+    /// Whether both sides of the faces reflect: their backs are then as many further facets.
     #[serde(default)]
     pub two_sided: bool,
 }

@@ -8,10 +8,10 @@ use super::sample::Sample;
 use crate::error::Result;
 use crate::estimate::noise::{Noise, NoiseSource};
 
-/// How far facets were taken to be off.
+/// The noise of facets that was assumed.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub(super) struct NoiseRecord {
-    /// What gave it.
+    /// Where it comes from.
     from: NoiseSourceRecord,
     /// Error of the model, relative to a facet's value.
     #[schemars(range(min = 0))]
@@ -22,7 +22,7 @@ pub(super) struct NoiseRecord {
     pub(super) sd: Option<f64>,
 }
 
-/// What tells how far facets may be off.
+/// Where the assumed noise of facets comes from.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "NoiseSource")]
@@ -31,7 +31,7 @@ enum NoiseSourceRecord {
     Flag,
     /// The sample's `facet_sd`.
     FacetSd,
-    /// The facets, by what no reflectance explains of them.
+    /// The facets themselves: the part of their values that no reflectance explains.
     Facets,
 }
 

@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use ndarray::{Array2, ShapeBuilder};
 use npyz::{NpyFile, Order};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 
 /// Largest number of facets of a kernel; one of this size takes 3 GB.
 const SQUARE_MAX: u64 = 20_000;
@@ -20,13 +20,13 @@ const HEADER_MAX: u64 = 10_000;
 const BRACKETS_MAX: usize = 8;
 
 /// Reads a matrix of double precision numbers with the numbers of rows and columns in `shape`, which also
-/// names them.
+/// names them, in the singular.
 ///
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Array`] if it is not such a matrix.
 pub fn read_matrix(path: &Path, shape: [(usize, &str); 2]) -> Result<DMatrix<f64>> {
     let [(rows, row), (cols, col)] = shape;
-    let needed = format!("{rows} {row} by {cols} {col} are needed");
+    let needed = format!("{} by {} are needed", counted(rows, row), counted(cols, col));
     read(path, &needed, |shape| (shape == [rows as u64, cols as u64]).then_some([rows, cols])).map(matrix)
 }
 
@@ -48,7 +48,7 @@ pub fn read_square(path: &Path) -> Result<DMatrix<f64>> {
 /// # Errors
 /// As [`read_matrix`].
 pub fn read_rows(path: &Path, cols: usize) -> Result<Array2<f64>> {
-    let needed = format!("{cols} numbers are needed, or 1 to 1000 rows of them");
+    let needed = format!("a row of {} is needed, or up to 1000 such rows", counted(cols, "number"));
     read(path, &needed, |shape| match shape {
         [only] if *only == cols as u64 => Some([1, cols]),
         [rows @ 1..=1000, of] if *of == cols as u64 => Some([*rows as usize, cols]),

@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::Scene;
 use super::fields::LARGEST;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::spectrum::{
     ASSUMED_LIGHT, Interpolation, Outside, Sensitivities, Spectrum, WavelengthGrid, illuminant,
 };
 
-/// A named spectrum on the scene's wavelengths.
+/// A named spectrum at the wavelengths of the scene.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct SpectrumRecord {
     /// Built-in name or file.
@@ -18,12 +18,12 @@ pub struct SpectrumRecord {
     /// Relative power, one per waveband.
     #[schemars(inner(range(min = 0)))]
     pub power: Vec<f64>,
-    /// How it was found between samples, where it was: `sprague` or `linear`.
+    /// How values between those of its source were interpolated, if they were: `sprague` or `linear`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
 }
 
-/// A camera on the scene's wavelengths.
+/// A camera, at the wavelengths of the scene.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct CameraRecord {
     /// Built-in name or file.
@@ -33,27 +33,29 @@ pub struct CameraRecord {
     /// Sensitivity to power, `[channel][waveband]`, in any unit.
     #[schemars(length(min = 1), inner(inner(range(min = 0))))]
     pub sensitivities: Vec<Vec<f64>>,
-    /// How they were found between samples, where they were: `sprague` or `linear`.
+    /// How values between those of their source were interpolated, if they were: `sprague` or `linear`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
-    /// What it stands in for, if another camera took the photograph.
+    /// The camera for which it stands in, if another camera took the photograph.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stands_in: Option<StandInRecord>,
 }
 
-/// The camera that took a photograph, if nobody measured its curves and another's stand in for them.
+/// The camera that took a photograph, if its sensitivities have not been measured and others are used
+/// instead.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct StandInRecord {
-    /// Maker and model as the photograph has them.
+    /// Maker and model, as the photograph names them.
     pub camera: String,
-    /// Why the other one stands in for it.
+    /// Why these sensitivities are used instead.
     pub why: String,
-    /// How far off the other one's sensitivities are in the mean of such cases, root mean square, green's
-    /// peak being 1.
+    /// Error of the sensitivities used instead, as a mean over such cases: root mean square, relative to the
+    /// peak of green.
     #[schemars(range(min = 0))]
     #[serde(alias = "curve_error")]
     pub sensitivity_error: f64,
-    /// Whether the sensitivities are predicted from its colour matrix, not those of another camera.
+    /// Whether the sensitivities used instead are predicted from its colour matrix, rather than those of
+    /// another camera.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_predicted: bool,
 }
@@ -210,7 +212,7 @@ impl Scene {
         if camera.sensitivities.len() != channels {
             return Err(Error::field(
                 "camera.channels",
-                format!("{channels} names, not one per sensitivity"),
+                format!("{}, not one per sensitivity", counted(channels, "name")),
             ));
         }
         if camera.sensitivities.is_empty()
@@ -261,8 +263,8 @@ impl Scene {
 
 fn on_grid(grid: &WavelengthGrid, name: &str, spectrum: &SpectrumRecord) -> Result<()> {
     if spectrum.power.len() != grid.len() {
-        let count = spectrum.power.len();
-        return Err(Error::field(name, format!("{count} numbers for {} wavebands", grid.len())));
+        let numbers = counted(spectrum.power.len(), "number");
+        return Err(Error::field(name, format!("{numbers} for {} wavebands", grid.len())));
     }
     not_negative(name, &spectrum.power)
 }

@@ -13,18 +13,18 @@ use crate::image::{
     Processing, Refinement,
 };
 
-/// The photograph, how its numbers were understood, and where the panels lie in it.
+/// The photograph, how its numbers were interpreted, and where the panels are in it.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ImageRecord {
-    /// File, as it was named.
+    /// Path of the file, as it was stated.
     file: String,
-    /// Size of the file, bytes; absent of a pipe.
+    /// Size of the file, bytes; absent if it was read from a pipe.
     #[serde(skip_serializing_if = "Option::is_none")]
     file_bytes: Option<u64>,
-    /// When the file was last written, seconds after 1970-01-01T00:00Z.
+    /// When the file was last changed, seconds after 1970-01-01T00:00Z.
     #[serde(skip_serializing_if = "Option::is_none")]
     file_modified_s: Option<f64>,
-    /// SHA-256 checksum of the file, as sha256sum prints it; absent of a pipe.
+    /// SHA-256 checksum of the file, as sha256sum prints it; absent if it was read from a pipe.
     #[serde(skip_serializing_if = "Option::is_none")]
     sha256: Option<String>,
     /// When the picture was taken: date and time by the camera's clock, with the difference from UTC if it is
@@ -35,89 +35,91 @@ pub struct ImageRecord {
     width: usize,
     /// Height of the upright picture, px.
     height: usize,
-    /// Format, depth and colours of the file.
+    /// Format of the file, bits per sample and colours.
     stored_as: String,
-    /// The curve that was undone: linear or srgb.
+    /// The transfer curve that was undone: srgb, or linear if there was none.
     transfer: &'static str,
-    /// The stored number for no light.
+    /// The stored number that means no light.
     black_level: Levels,
-    /// The stored number for 1.
+    /// The stored number that means the value 1.
     white_level: Levels,
-    /// The stored number at which each channel ends below the white level, and from which on its pixels are
-    /// clipped; null for a channel that goes on.
+    /// For each channel the largest stored number, if it is below the white level: pixels that reach it count
+    /// as clipped; null for a channel that reaches the white level.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     ends_at: Vec<Option<f64>>,
-    /// The darkest stored numbers of each channel, where they are alike in all, as if black had not been
-    /// subtracted.
+    /// The darkest stored number of each channel, if it is similar in all of them, as when the black level
+    /// was not subtracted.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     darkest: Vec<f64>,
-    /// Of a RAW file: what was read of the sensor.
+    /// What was read of the sensor, if it is a RAW file.
     #[serde(skip_serializing_if = "Option::is_none")]
     sensor: Option<SensorRecord>,
-    /// What the camera did to the picture, and was undone.
+    /// The camera's processing that was undone.
     #[serde(skip_serializing_if = "Option::is_none")]
     undone: Option<DevelopmentRecord>,
-    /// Whether the picture appears to be developed for the eye, with nothing of that undone.
+    /// Whether the picture appears to have been developed for viewing, and none of that was undone.
     #[serde(skip_serializing_if = "is_false")]
     developed: bool,
-    /// What was done to the numbers, as their noise shows: `curve` or `matrix`.
+    /// Processing that the noise of the numbers reveals: `curve` or `matrix`.
     #[serde(skip_serializing_if = "Option::is_none")]
     processing: Option<ProcessingRecord>,
-    /// How many neighbouring pixels make one independent number, per channel; 1 where noise is not shared.
+    /// Number of neighbouring pixels that share their noise, so that together they count as one, per channel;
+    /// 1 if pixels are independent.
     pixels_sharing_noise: Vec<f64>,
-    /// The camera's maker.
+    /// Maker of the camera, as the file names it.
     #[serde(skip_serializing_if = "Option::is_none")]
     make: Option<String>,
-    /// The camera.
+    /// Model of the camera, as the file names it.
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<String>,
     /// Exposure time, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     exposure_s: Option<f64>,
-    /// Focal length over aperture.
+    /// F-number: focal length divided by the diameter of the aperture.
     #[serde(skip_serializing_if = "Option::is_none")]
     f_number: Option<f64>,
     /// ISO sensitivity.
     #[serde(skip_serializing_if = "Option::is_none")]
     iso: Option<u32>,
-    /// By these three, value of a perfect white diffuser under 1000 lx; absent where the numbers are not as
-    /// the sensor counted them.
+    /// Value that a perfect white diffuser under 1000 lx has with this exposure time, f-number and ISO;
+    /// absent if the numbers are not those of the sensor.
     #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     white_per_klx: Option<f64>,
-    /// How the picture was stored, as EXIF counts it: 1 is upright.
+    /// Orientation of the stored picture as a number of EXIF, 1 to 8: 1 is upright.
     #[schemars(range(min = 1, max = 8))]
     orientation: u32,
-    /// Four corners of each panel, [x, y] each, px of the upright picture; null where a panel was not marked.
+    /// Four corners of each panel, [x, y] each, in pixels of the upright picture; null for a panel that was
+    /// not marked.
     panels: Vec<Option<[[f64; 2]; 4]>>,
-    /// Sides along which no edge of the sheet lies, such as `the outer side of panel 0`.
+    /// Sides of the panels along which the sheet has no edge, such as `the outer side of panel 0`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     open_sides: Vec<String>,
-    /// The fold to which the corners belong, if they do not fit that of the scene.
+    /// The fold that the corners show, if they do not fit that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     other_fold: Option<OtherFoldRecord>,
     /// Distance from the panels' edges within which pixels are left out, px.
     margin_px: f64,
-    /// Coefficients K1 and K2 of the lens.
+    /// Distortion by the lens: the coefficients K1 and K2 of `vextract --distortion`.
     #[serde(skip_serializing_if = "Option::is_none")]
     distortion: Option<[f64; 2]>,
-    /// How corners were moved to the edges around them.
+    /// How far the corners were moved to the edges around them.
     #[serde(skip_serializing_if = "Option::is_none")]
     refined: Option<RefinedRecord>,
-    /// Probability that all corners are right, of panels that were detected rather than stated.
+    /// Probability that all corners are right, if the panels were detected rather than marked.
     #[schemars(inner(range(min = 0, max = 1)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     detection_confidence: Option<f64>,
-    /// What was wrong with the file but did no harm.
+    /// Faults of the file that did no harm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<String>,
 }
 
-/// What was done to numbers that pass for a sensor's own.
+/// Processing of numbers that appear to be those of the sensor.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum ProcessingRecord {
-    /// They have a curve such as sRGB's.
+    /// The numbers have a curve such as that of sRGB.
     Curve,
     /// A matrix mixed the channels.
     Matrix,
@@ -141,16 +143,16 @@ impl From<ProcessingRecord> for Processing {
     }
 }
 
-/// A fold as its corners tell it.
+/// A fold as its corners show it.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
 struct OtherFoldRecord {
-    /// Angle between the panels.
+    /// Angle between the panels, degrees.
     angle_deg: f64,
-    /// Standard deviation of the angle.
+    /// Standard deviation of the angle, degrees.
     angle_sd_deg: f64,
     /// Depths of panels 0 and 1 over their width.
     depths: [f64; 2],
-    /// Whether its panels differ from the scene's, rather than its angle.
+    /// Whether its panels have other proportions than those of the scene, so that not only the angle differs.
     other_panels: bool,
 }
 
@@ -168,13 +170,13 @@ impl From<OtherFoldRecord> for OtherFold {
     }
 }
 
-/// How corners were moved to the edges around them.
+/// How far the corners were moved to the edges around them.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 struct RefinedRecord {
-    /// How far, px, four corners a panel.
+    /// Distance by which each corner was moved, px, four per panel.
     #[schemars(inner(inner(range(min = 0))))]
     moved_px: Vec<[f64; 4]>,
-    /// Sides at which no edge was found, and which stayed where they were.
+    /// Sides at which no edge was found: they were left where they were marked.
     sides_without_edge: Vec<String>,
 }
 
@@ -209,11 +211,12 @@ impl From<&[f64]> for Levels {
 /// What was read of a RAW file's sensor.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 struct SensorRecord {
-    /// Letters of the colour filters from the area's top left corner, row by row: RGGB; absent without
-    /// filters.
+    /// Colours of the filters from the area's top left corner, row by row, such as RGGB; absent if there are
+    /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     mosaic: Option<String>,
-    /// Left column, top row, width and height of the area read, px of the whole sensor as stored.
+    /// Left column, top row, width and height of the area that was read, in pixels of the whole sensor as
+    /// stored.
     area: [usize; 4],
 }
 

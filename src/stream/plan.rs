@@ -9,7 +9,7 @@ use super::scene::Scene;
 use crate::error::Result;
 use crate::estimate::unknowns::Unknown;
 
-/// What estimates of a scene's samples will be worth, before any is taken.
+/// How accurate estimates of sheets in a scene will be, computed before any photograph is taken.
 #[derive(Serialize, JsonSchema)]
 #[serde(tag = "kind", rename = "plan")]
 #[schemars(extend("x-writer" = "vestimate"))]
@@ -19,19 +19,20 @@ pub(super) struct PlanRecord {
     /// Angle between the panels of a fold, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     angle_deg: Option<f64>,
-    /// The picture together with which this one will be estimated, if there is one.
+    /// The other picture of the sheet, if two are to be estimated together.
     #[serde(skip_serializing_if = "Option::is_none")]
     with_photograph: Option<WithPhotographRecord>,
-    /// The reflectances that will be photographed, as `vestimate --reflectance` names them.
+    /// Reflectances of the sheets that will be photographed, as `vestimate --reflectance` names them.
     reflectances: String,
-    /// Number of them.
+    /// Number of these reflectances.
     samples: usize,
-    /// Standard deviation of every facet's value, white being 1.
+    /// Standard deviation of the noise of each facet's value; white is 1.
     #[schemars(range(min = 0))]
     noise_sd: f64,
-    /// Root mean square error over the wavelengths to expect of the reflectances.
+    /// Expected error of the estimated reflectances, on their scale from 0 to 1: root mean square over the
+    /// wavelengths.
     expected_rmse: ExpectedRmse,
-    /// Standard deviation to expect of what is fitted along.
+    /// Expected standard deviation of each quantity that is fitted together with the reflectance.
     #[serde(skip_serializing_if = "Option::is_none")]
     expected_sd: Option<Quantities<f64>>,
 }
@@ -46,7 +47,7 @@ struct WithPhotographRecord {
     angle_deg: Option<f64>,
 }
 
-/// Of several reflectances.
+/// Mean and largest error of several reflectances.
 #[derive(Serialize, JsonSchema)]
 struct ExpectedRmse {
     /// Mean.
@@ -66,7 +67,7 @@ pub struct NewPlan<'a> {
     pub with_photograph: Option<(&'a Scene, Option<f64>)>,
     /// The reflectances that will be photographed, in the terms of `vestimate --reflectance`.
     pub reflectances: &'a str,
-    /// Standard deviation of every facet's value, white being 1.
+    /// Standard deviation of the noise of each facet's value; white is 1.
     pub noise_sd: f64,
     /// Expected root mean square error of each reflectance.
     pub rmse: &'a [f64],

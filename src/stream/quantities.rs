@@ -66,7 +66,7 @@ impl<T: JsonSchema> JsonSchema for Quantities<T> {
         json_schema!({
             "type": "object",
             "properties": properties,
-            "description": "Something of each number of a scene that was fitted; what was not is absent.",
+            "description": "A value for each quantity of the scene that was fitted; others are absent.",
         })
     }
 }

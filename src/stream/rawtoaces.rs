@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 use serde::Deserialize;
 
 use super::json_file;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::spectrum::formats::Table;
 use crate::spectrum::spec::Specs;
 use crate::spectrum::{Sensitivities, Spectrum};
@@ -95,7 +95,8 @@ fn read(path: &str, text: &str) -> Result<Table> {
         let nm = key.parse().ok().filter(|nm| NM.contains(nm));
         let nm: f64 = nm.ok_or_else(|| refused(format!("'{key}' is not a wavelength in nm")))?;
         if row.len() != count {
-            return Err(refused(format!("{} numbers at {nm} nm for {count} spectra", row.len())));
+            let (numbers, spectra) = (counted(row.len(), "number"), counted(count, "spectrum"));
+            return Err(refused(format!("{numbers} at {nm} nm for {spectra}")));
         }
         rows.push((nm, row));
     }

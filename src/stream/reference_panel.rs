@@ -7,10 +7,10 @@ use super::Scene;
 use super::fields::finite;
 use crate::error::{Error, Result};
 
-/// A card of known reflectance in the place of one panel, on the scene's wavelengths.
+/// A card of known reflectance in the place of one panel, at the wavelengths of the scene.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct ReferencePanel {
-    /// The card's panel; the other is the sheet.
+    /// The panel whose place the card takes, 0 or 1; the other panel is the sheet.
     #[serde(default = "panel_1")]
     #[schemars(range(min = 0, max = 1))]
     pub panel: usize,

@@ -81,8 +81,8 @@ pub struct Regions {
     pub missing: Option<String>,
 }
 
-/// Where panels are in a picture: `panel0`, `panel1`, .. have four corners each, [x, y], px of the upright
-/// picture, in the order of `vextract --panel0`.
+/// Where panels are in a picture: `panel0`, `panel1` and so on have four corners each, [x, y] in pixels of
+/// the upright picture, in the order of `vextract --panel0`.
 #[derive(Serialize, JsonSchema)]
 pub(super) struct RegionsRecord {
     /// Name of the picture's file.

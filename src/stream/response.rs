@@ -6,25 +6,25 @@ use serde::{Deserialize, Serialize};
 
 use super::Scene;
 use super::fields::{BY_VKERNEL, finite};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::geometry::Fold;
 use crate::response::{ModeSet, Modes, Response};
 use crate::surfaces::SurfaceResponse;
 
-/// What all bounces make of light.
+/// The effect of all bounces of light.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "needs poles and residues; make the scene again with vkernel")]
 pub(super) enum ResponseRecord {
-    /// Of a fold with panels alike: light on either panel, residues for the facets of one.
+    /// Of a fold with equal panels: light on either panel, with residues for the facets of one.
     Shared(ModesRecord),
     /// Of any other fold.
     Separate {
-        /// Light on panel 0 and light on panel 1, residues for the facets of both.
+        /// Light on panel 0, then light on panel 1, each with residues for the facets of both.
         panels: [ModesRecord; 2],
     },
     /// Of any other surface, or of a fold among sources other than the sun and a uniform sky.
     Sources {
-        /// Every source, residues for all facets.
+        /// One entry for each source, with residues for all facets.
         sources: Vec<ModesRecord>,
     },
 }
@@ -32,7 +32,7 @@ pub(super) enum ResponseRecord {
 /// Poles and residues of the bounces in one light.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct ModesRecord {
-    /// Poles: the share of its light that a mode hands on.
+    /// Poles: the share of its light that a mode passes on in a bounce, if nothing is absorbed.
     #[schemars(inner(range(min = -1, max = 1)))]
     poles: Vec<f64>,
     /// Residues, `[facet][pole]`.
@@ -135,7 +135,7 @@ impl Scene {
         };
         let (facets, sources) = (self.facet_count()?, self.sources()?.len());
         if modes.len() != sources {
-            let problem = format!("{} for {sources} sources of light", modes.len());
+            let problem = format!("{} for {} of light", modes.len(), counted(sources, "source"));
             return Err(Error::field("response.sources", problem));
         }
         let response = |modes: ModesRecord| SurfaceResponse::new(modes.into_modes(facets)?);

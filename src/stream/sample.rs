@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::fields::{Fields, LARGEST, finite};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::spectrum::{Outside, Spectrum, WavelengthGrid};
 
 /// Name of a sample without a name.
@@ -18,7 +18,7 @@ pub struct Sample {
     pub fields: Fields,
 }
 
-/// A reflectance on its own wavelengths.
+/// A reflectance at its own wavelengths.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema, PartialEq)]
 pub struct ReflectanceRecord {
     /// Wavelengths, nm, increasing.
@@ -26,12 +26,12 @@ pub struct ReflectanceRecord {
     /// Reflectance, one per wavelength.
     #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
-    /// How it was found between samples, where it was: `sprague` or `linear`.
+    /// How values between those of its source were interpolated, if they were: `sprague` or `linear`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
-    /// What a sheet that fluoresces sends out of white's light under the scene's, one number from 0 per
-    /// wavelength: its reflectance, and what it makes of light of other wavelengths; without bounces. Absent
-    /// of a sheet that does not fluoresce.
+    /// Total radiance factor of a sheet that fluoresces, in the light of the scene and without bounces: what
+    /// it reflects and what it emits, relative to a perfect white diffuser, one number from 0 per wavelength.
+    /// Absent for a sheet that does not fluoresce.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub total_radiance_factor: Option<Vec<f64>>,
@@ -105,7 +105,8 @@ impl Sample {
             checked("truth", reflectance)?;
             checked_radiance("truth.total_radiance_factor", total_radiance_factor.iter().flatten())?;
             if total_radiance_factor.as_ref().is_some_and(|total| total.len() != wavelengths_nm.len()) {
-                let problem = format!("needs {} numbers, one per wavelength", wavelengths_nm.len());
+                let numbers = counted(wavelengths_nm.len(), "number");
+                let problem = format!("needs {numbers}, one per wavelength");
                 return Err(Error::field("truth.total_radiance_factor", problem));
             }
         }

@@ -16,7 +16,7 @@ use super::white_paper::WhitePaperRecord;
 use crate::error::Result;
 use crate::paper::bounces::Truncation;
 
-/// A sheet in the scene above it: the colours of its facets, and what the tools make of them.
+/// A sheet in the scene above it: the colours of its facets, and what the tools compute from them.
 #[derive(Default, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename = "sample")]
 #[schemars(extend("x-writer" = "vforward, vextract"))]
@@ -25,15 +25,16 @@ pub(super) struct SampleRecord {
     scene: String,
     /// Name of the sample: that of its spectrum or photograph.
     id: String,
-    /// Value of a perfect white diffuser that faces the sun, in its strongest channel, if it is known.
+    /// Exposure, if it is known: value of a perfect white diffuser that faces the sun, in its strongest
+    /// channel.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     exposure: Option<f64>,
-    /// How a chart or a white card made the photograph's values those of the camera.
+    /// How a chart or a white card calibrated the photograph's values.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     calibration: Option<CalibrationRecord>,
-    /// White paper beside the sheet, from which vestimate knows the exposure to a few per cent.
+    /// White paper beside the sheet, which tells vestimate the exposure to within a few per cent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     white_paper: Option<WhitePaperRecord>,
@@ -41,38 +42,39 @@ pub(super) struct SampleRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     image: Option<ImageRecord>,
-    /// Mean value of every facet, linear, white that faces the sun being the exposure. Absent beside an
-    /// error.
+    /// Mean value of each facet, proportional to its light; white that faces the sun has the value of the
+    /// exposure. Absent if there is an `error`.
     #[serde(skip_serializing_if = "Option::is_none")]
     facet_rgb: Option<ColoursRecord>,
-    /// Standard deviation of the same, from 0.
+    /// Standard deviation of each value of `facet_rgb`, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     facet_sd: Option<ColoursRecord>,
-    /// Pixels that were averaged, a count per facet; one that facets share counts by its part.
+    /// Number of pixels averaged in each facet; a pixel shared by several facets counts in each by the part
+    /// that lies in it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     facet_pixels: Option<Vec<f64>>,
-    /// Pixels left out because a channel is clipped, a count per facet.
+    /// Number of pixels of each facet that were left out because a channel is clipped.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     facet_clipped: Option<Vec<usize>>,
-    /// Pixels left out because they are not finite or transparent, a count per facet.
+    /// Number of pixels of each facet that were left out because they are transparent or not finite.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     facet_not_finite: Option<Vec<usize>>,
-    /// Pixels left out because they do not look like the rest of the facet, a count per facet.
+    /// Number of pixels of each facet that were left out because they do not look like the rest of the facet.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vextract"))]
     facet_outliers: Option<Vec<usize>>,
-    /// Bounces of light that the facets' values are made of; all if absent.
+    /// The bounces of light that the facets' values include; all if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward"))]
     bounces: Option<BouncesRecord>,
-    /// The true spectrum.
+    /// The true reflectance, if it is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vscore"))]
     truth: Option<ReflectanceRecord>,
-    /// Where the panels are in the picture that was taken: what `vextract --regions` reads.
+    /// Where the panels are in the rendered picture, in the form that `vextract --regions` reads.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward"))]
     regions: Option<RegionsRecord>,
@@ -95,12 +97,12 @@ pub(super) struct SampleRecord {
     error: Option<String>,
 }
 
-/// The first bounces of light, where not all are counted.
+/// The first bounces of light, if not all are included.
 #[derive(Serialize, JsonSchema)]
 struct BouncesRecord {
     /// Number of bounces.
     count: u32,
-    /// Largest share of a facet's value that the others would add.
+    /// Largest share of a facet's value that all further bounces would add.
     #[schemars(range(min = 0, max = 1))]
     missing: f64,
 }

@@ -21,8 +21,8 @@ use crate::geometry::{Fold, Light, LightSource};
 use crate::response::Response;
 use crate::surfaces::SurfaceResponse;
 
-/// A surface in its light, with what every facet gets back from all bounces. Samples below it in the stream
-/// belong to it.
+/// A surface and its light, with the response of every facet to all bounces of light. Samples below it in the
+/// stream belong to it.
 #[derive(Serialize, JsonSchema)]
 #[serde(tag = "kind", rename = "scene")]
 #[schemars(extend("x-writer" = "vkernel"))]
@@ -34,14 +34,15 @@ pub(super) struct SceneRecord {
     id: String,
     /// The surface.
     geometry: GeometryRecord,
-    /// Where colour is measured.
+    /// The parts of the surface on each of which one colour is measured.
     facets: FacetsRecord,
     /// Where light comes from.
     light: LightRecord,
-    /// What all bounces make of light, for every reflectance r at once. On a fold under sun and uniform sky,
-    /// irradiance 1 on a panel becomes `Σ_k residues[i][k] / (1 − r²·poles[k]²)` on its facet i, and the same
-    /// with `r·poles[k]·residues[i][k]` on that of the other panel; on any other surface, and on a fold among
-    /// other sources, one gives facet i `Σ_k residues[i][k] / (1 − r·poles[k])`.
+    /// The effect of all bounces of light, for every reflectance r at once. On a fold under sun and uniform
+    /// sky, irradiance 1 on a panel becomes the irradiance `Σ_k residues[i][k] / (1 − r²·poles[k]²)` of its
+    /// facet i, and the same with `r·poles[k]·residues[i][k]` of facet i of the other panel; on any other
+    /// surface, and on a fold among other sources, a source gives facet i the irradiance `Σ_k residues[i][k]
+    /// / (1 − r·poles[k])`.
     response: ResponseRecord,
     #[serde(flatten)]
     further: FurtherRecord,
@@ -50,14 +51,14 @@ pub(super) struct SceneRecord {
 /// What is added to a scene.
 #[derive(Default, Serialize, JsonSchema)]
 struct FurtherRecord {
-    /// How well the bounces are solved.
+    /// How accurately the bounces were solved.
     #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<AccuracyRecord>,
-    /// What need not be computed.
+    /// Work that was skipped because the result does not need it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vkernel, vforward"))]
     skipped: Option<Vec<SkippedRecord>>,
-    /// The tools that made the scene and all below it, in their order.
+    /// The commands that made the scene and everything below it, in their order.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "all"))]
     history: Option<Vec<HistoryRecord>>,
@@ -69,8 +70,8 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vextract"))]
     camera: Option<CameraRecord>,
-    /// Spectra of the light: one for all sources, one for each that is no sky, or, of one source, one for
-    /// each picture.
+    /// Spectra of the light: one for all sources; or one for each source that is not a sky; or, if there is
+    /// one source, one for each picture.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1), extend("x-writer" = "vforward, vextract"))]
     illuminants: Option<Vec<SpectrumRecord>>,
@@ -87,15 +88,15 @@ struct FurtherRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vextract"))]
     sky_illuminant: Option<SpectrumRecord>,
-    /// A card in the place of one panel of a fold.
+    /// A card of known reflectance in the place of one panel of a fold.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vestimate"))]
     reference_panel: Option<ReferencePanel>,
-    /// Whether the sheet is backed by black card or its like, so that no light comes through it from behind.
+    /// Whether black card or the like lies behind the sheet, so that no light comes through it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vestimate"))]
     backed: Option<bool>,
-    /// Groups of facets, of a surface that is not a fold, whose reflectance is known; all others are the
+    /// Groups of facets of known reflectance, on a surface that is not a fold; all other facets are the
     /// sheet.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-writer" = "vforward, vestimate"))]

@@ -106,7 +106,7 @@ impl<T> Scenes<T> {
             let above = last.id.as_deref().map_or("one without a name".to_owned(), |id| format!("'{id}'"));
             let problem = match self.has_forgotten {
                 true => {
-                    format!("'{id}' is none of the last {} scenes, and no more are kept", self.above.len())
+                    format!("'{id}' is not among the scenes that are kept, the last {}", self.above.len())
                 }
                 false => format!("no scene '{id}' comes before the sample; the scene above it is {above}"),
             };
@@ -180,12 +180,12 @@ mod tests {
             scenes.enter(&scene(&n.to_string(), ""), n);
         }
         assert_eq!(scenes.of(&sample("36")).unwrap(), Some(&36));
-        assert!(problem(&mut scenes, "35").contains("none of the last 64"));
+        assert!(problem(&mut scenes, "35").contains("the last 64"));
         let large = "x".repeat(40 * PLACE_BYTES);
         scenes.enter(&scene("large", &large), 100);
         scenes.enter(&scene("larger", &large), 101);
         assert_eq!(scenes.of(&sample("larger")).unwrap(), Some(&101));
-        assert!(problem(&mut scenes, "large").contains("none of the last 1"));
+        assert!(problem(&mut scenes, "large").contains("the last 1"));
     }
 
     #[test]
@@ -197,7 +197,7 @@ mod tests {
             large.fields.set(&n.to_string(), "x".repeat(PLACE_BYTES / 2)).unwrap();
         }
         scenes.enter(&large, 1);
-        assert!(problem(&mut scenes, "small").contains("none of the last 1"));
+        assert!(problem(&mut scenes, "small").contains("the last 1"));
     }
 
     #[test]

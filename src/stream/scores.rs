@@ -21,7 +21,7 @@ pub(super) struct ColourRecord {
     xyz: [f64; 3],
     /// CIELAB: L*, a*, b*.
     lab: [f64; 3],
-    /// sRGB, 0 to 1 on a display, beyond where it cannot show the colour.
+    /// sRGB, 0 to 1; outside that range if a display cannot show the colour.
     srgb: [f64; 3],
     /// Standard deviations of `xyz`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -32,12 +32,13 @@ pub(super) struct ColourRecord {
     /// Standard deviations of `srgb`.
     #[serde(skip_serializing_if = "Option::is_none")]
     srgb_sd: Option<[f64; 3]>,
-    /// What standard deviations come from: covariance, or `reflectance_sd`, which allows no more than these.
+    /// What the standard deviations are computed from: covariance; or `reflectance_sd`, which gives upper
+    /// limits only.
     #[serde(skip_serializing_if = "Option::is_none")]
     sd_from: Option<String>,
 }
 
-/// What a scored stream ends with: mean, median and worst of every score.
+/// The last record of a scored stream: mean, median and worst of every score.
 #[derive(Serialize, JsonSchema)]
 #[serde(tag = "kind", rename = "summary")]
 #[schemars(extend("x-writer" = "vscore"))]
@@ -47,7 +48,7 @@ pub(super) struct SummaryRecord {
     /// The field by which samples are grouped.
     #[serde(skip_serializing_if = "Option::is_none")]
     by: Option<String>,
-    /// The groups, in the order in which they came.
+    /// The groups, in the order of their first samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     groups: Option<Vec<GroupRecord>>,
 }
@@ -66,7 +67,7 @@ struct GroupRecord {
 struct CountsRecord {
     /// Number of samples.
     samples: usize,
-    /// Number of them that have scores.
+    /// Number of samples that have scores.
     scored: usize,
     #[serde(flatten)]
     scores: Named<StatisticsRecord>,
@@ -79,7 +80,7 @@ struct StatisticsRecord {
     mean: f64,
     /// Median.
     median: f64,
-    /// The largest; of a goodness of fit (gfc) the least.
+    /// The worst: the largest, but the smallest of a goodness of fit (gfc).
     worst: f64,
 }
 

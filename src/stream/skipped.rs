@@ -8,14 +8,14 @@ use super::Scene;
 use crate::error::Result;
 use crate::kernel::skipped::Skipped;
 
-/// What need not be computed.
+/// Work that was skipped because the result does not need it.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct SkippedRecord {
-    /// What, in the plural.
+    /// What was skipped, a noun in the plural.
     pub what: String,
-    /// How many of them.
+    /// How many were skipped.
     pub count: usize,
-    /// Why none is missed.
+    /// Why the result does not need them.
     pub why: String,
 }
 

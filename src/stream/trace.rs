@@ -7,27 +7,30 @@ use super::fields::{Fields, finite};
 use crate::error::Result;
 use crate::solve::posterior::Iteration;
 
-/// An iteration of an estimate, as it began; in the file of `vestimate --trace`.
+/// One iteration of an estimate, at its beginning; `vestimate --trace FILE` writes them.
 #[derive(Serialize, JsonSchema)]
 #[serde(tag = "kind", rename = "iteration")]
 #[schemars(extend("x-writer" = "vestimate"))]
 pub(super) struct IterationRecord {
     /// Name of the sample.
     sample: String,
-    /// 0 under all spectra of the prior as one Gaussian, the others each under a class of them.
+    /// Number of the search: 0 takes all spectra of the prior as one Gaussian, each later one takes one class
+    /// of them.
     run: usize,
     /// Number of the iteration in its run, from 0.
     iteration: usize,
-    /// Sum of the squares of residuals and unknowns, both in units of their standard deviations.
+    /// What is minimised: the sum of the squares of residuals and unknowns, both in units of their standard
+    /// deviations.
     #[schemars(range(min = 0))]
     cost: f64,
-    /// Norm of its gradient in the metric of the Hessian.
+    /// Norm of the gradient of `cost` in the metric of its Hessian; it falls to about 0 at the minimum.
     #[schemars(range(min = 0))]
     gradient_norm: f64,
-    /// Damping of the first trial.
+    /// Damping of Newton's method with which the iteration tried its first step.
     #[schemars(range(min = 0))]
     damping: f64,
-    /// Factor by which the noise is taken to be larger than it is.
+    /// Factor, from 1, by which the noise is taken to be larger than it is, so that the data bind less at
+    /// first.
     #[schemars(range(min = 0))]
     noise: f64,
 }

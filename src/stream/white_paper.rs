@@ -9,13 +9,13 @@ use super::fields::finite;
 use super::{Corners, Sample};
 use crate::error::Result;
 
-/// White printing or writing paper in the light of the sheet. It is brightened, so that its colour reveals
-/// nothing about camera or light; its luminance factor is known to a few per cent.
+/// White printing or writing paper in the same light as the sheet. It contains a brightener, so that its
+/// colour reveals nothing about camera or light; its luminance factor is known to within a few per cent.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct WhitePaperRecord {
-    /// Its corners, [x, y] each, px of the upright picture.
+    /// Its four corners, [x, y] each, in pixels of the upright picture.
     corners: [[f64; 2]; 4],
-    /// Cosine of the angle between the sun and its normal.
+    /// Cosine of the angle between the direction to the sun and the normal of the paper.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     cos: f64,
     /// Value in the photograph, one per channel.

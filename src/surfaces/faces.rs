@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::polygon::Polygon;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::geometry::Vec3;
 
 /// Largest deviation of a quadrilateral from a plane, relative to its longer diagonal.
@@ -14,7 +14,7 @@ const DEGENERATE: f64 = 1e-9;
 /// The face as a polygon, if its corners exist and are coplanar.
 pub(super) fn flat(vertices: &[[f64; 3]], corners: &[usize], n: usize) -> Result<Polygon> {
     if !(3..=4).contains(&corners.len()) {
-        let problem = format!("face {n} has {} corners", corners.len());
+        let problem = format!("face {n} has {}", counted(corners.len(), "corner"));
         return Err(Error::shape(problem, "divide it into triangles or quadrilaterals"));
     }
     let mut points = Vec::new();
@@ -81,5 +81,5 @@ pub(super) fn crowded_edges<'a>(facets: impl Iterator<Item = &'a Polygon>) -> Op
         }
     }
     let crowded = faces.values().filter(|count| **count > 2).count();
-    (crowded > 0).then(|| format!("{crowded} edges have more than two faces"))
+    (crowded > 0).then(|| format!("more than two faces meet at {}", counted(crowded, "edge")))
 }

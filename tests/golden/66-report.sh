@@ -16,7 +16,7 @@ print("in this order:", *sorted(marks, key=lambda mark: section.index(marks[mark
 for caption in re.findall("<caption>(.*?)</caption>", page):
     print("table:", html.unescape(caption))
 rows = {" ".join(text(head)): text(rest) for head, rest in re.findall('<th scope="row">(.*?)</th>(.*?)</tr>', page)}
-for name, space in [("CIE XYZ, white 100", "xyz"), ("CIELAB", "lab"), ("sRGB, 0 to 1", "srgb")]:
+for name, space in [("CIE XYZ, Y of white 100", "xyz"), ("CIELAB", "lab"), ("sRGB, 0 to 1", "srgb")]:
     shown = [float(word) for word in rows[name] if re.fullmatch(r"-?[0-9.]+", word)]
     told = [part for pair in zip(sample["colour"][space], sample["colour"][space + "_sd"]) for part in pair]
     off = max(abs(a - b) / max(1, abs(b)) for a, b in zip(shown, told))

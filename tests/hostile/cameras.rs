@@ -30,7 +30,7 @@ fn camera_files() {
 END
         "#,
         &[
-            case("sh forward ragged.json", 1, &["ragged.json", "1 numbers at 500 nm for 2 spectra"]),
+            case("sh forward ragged.json", 1, &["ragged.json", "1 number at 500 nm for 2 spectra"]),
             case("sh forward colour.json", 1, &["colour.json", "'blue' is not a wavelength"]),
             case("sh forward twice.json", 1, &["wavelength", "400"]),
             case("sh forward single.json", 1, &["wavelength"]),

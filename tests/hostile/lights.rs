@@ -9,6 +9,12 @@ fn lights() {
         &[
             case("vkernel --light 0,0,1 --tilt-deg 5", 2, &["--tilt-deg", "--light X,Y,Z"]),
             case("vkernel --light 0,0,1 --method midpoint", 2, &["--method", "not with --light"]),
+            case(
+                "vkernel --light 0,0,1 --tolerance 1e-9",
+                2,
+                &["--tolerance: 1e-9 cannot be kept with --light", "single precision", "give 1e-6 to 0.1"],
+            ),
+            case("vkernel --folds 3 --tolerance 1e-9", 2, &["--tolerance: 1e-9 cannot be kept on shapes"]),
             case("vkernel --sky-type overcast", 2, &["--sky-type", "no sky", "--sky only"]),
             case("vkernel --sky only --sky-type 16", 2, &["--sky-type", "1 to 15"]),
             case(

@@ -72,7 +72,10 @@ END
                 &["panel 0: no facet", "640 x 480 px"],
             ),
             case("sh whole photo.exr --refine=0", 2, &["--refine", "out of range"]),
+            case("sh whole photo.exr --refine=0.5", 2, &["--refine: 0.5 px is out of range", "1 to 100"]),
+            case("sh whole photo.exr --refine=101", 2, &["--refine: 101 px is out of range", "1 to 100"]),
             case("sh whole photo.exr --refine=NaN", 2, &["--refine", "out of range"]),
+            case("vextract photo.exr --preview one.png --refine=101", 2, &["--refine", "1 to 100"]),
             case(
                 "sh whole photo.exr --refine --panel1 '32,462 45,77 85,17 72,446'",
                 2,
@@ -96,7 +99,7 @@ END
                 "vextract photo.exr --scene scene.json --camera one.csv \
                     --panel0 '332,462 345,77 122,12 104,442'",
                 1,
-                &["photo.exr", "an RGB picture", "camera has 1 channels"],
+                &["photo.exr", "an RGB picture", "camera has 1 channel;"],
             ),
             case("sh whole big.tif", 1, &["big.tif", "BigTIFF", "less than 4 GiB"]),
             case("sh whole photo.nef", 1, &["photo.nef", "named like a camera's RAW file", "JPEG"]),

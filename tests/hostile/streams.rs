@@ -182,7 +182,7 @@ fn samples() {
         (r#"2s/"exposure":1.0/"exposure":"x"/"#, "exposure"),
         (r#"2s/"exposure":1.0/"exposure":0/"#, "a number above 0"),
         (r#"2s/"exposure":1.0/"exposure":-1/"#, "a number above 0"),
-        (r#"2s/"facet_rgb":/"facet_sd":[[1,1,1]],&/"#, "1 facets, but facet_rgb has 8"),
+        (r#"2s/"facet_rgb":/"facet_sd":[[1,1,1]],&/"#, "1 facet, but facet_rgb has 8"),
         (r#"2s/"facet_rgb":/"facet_sd":[[-1,1,1]],&/"#, "-1e0 cannot be"),
     ] {
         assert_marked(&folder, &format!("sed '{edit}' good.ndjson | vestimate"), says);

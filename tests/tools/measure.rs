@@ -62,7 +62,10 @@ fn what_is_found_is_not_asked() {
 #[test]
 fn a_camera_that_no_photograph_names_is_asked_at_a_terminal() {
     let (_, asked) = run(&["photo.exr"], "{ echo canon-5d-mk2; echo canon-5d-mark-ii; } | typing photo.exr");
-    assert!(asked.status == 0 && asked.stdout.contains("Camera of photo.exr, one of"), "{asked:?}");
+    assert!(
+        asked.status == 0 && asked.stdout.contains("Camera that took photo.exr (a name from"),
+        "{asked:?}"
+    );
     assert!(asked.stdout.contains("did you mean canon-5d-mark-ii"), "{asked:?}");
     assert!(asked.stdout.contains("vfold-photo/report.html: "), "{asked:?}");
     // elsewhere nobody would answer
@@ -81,8 +84,8 @@ fn a_camera_that_no_photograph_names_is_asked_at_a_terminal() {
 #[test]
 fn an_answer_holds_for_the_photographs_that_follow() {
     let (_, asked) = run(&["a.exr", "b.exr"], "echo canon-5d-mark-ii | typing a.exr b.exr");
-    assert_eq!(asked.stdout.matches("Camera of ").count(), 1, "{asked:?}");
-    assert!(asked.stdout.contains("vfold-report.html: 2 of 2 photographs"), "{asked:?}");
+    assert_eq!(asked.stdout.matches("Camera that took ").count(), 1, "{asked:?}");
+    assert!(asked.stdout.contains("vfold-report.html: 2 of 2 photographs measured"), "{asked:?}");
 }
 
 #[test]

@@ -135,7 +135,7 @@ fn numbers_are_those_of_the_record() {
         near(&row[2], &[&sample["truth"]["reflectance"][n]]);
     }
     assert_eq!(spectrum.len(), 62);
-    let fitted = table(&page, "Fitted along with the spectrum");
+    let fitted = table(&page, "Fitted together with the spectrum");
     for (name, words) in [
         ("exposure", "xposure"),
         ("tilt_deg", "Angle of the sun off the plane that halves the fold, degrees"),

@@ -76,7 +76,7 @@ fn a_long_solution_says_that_it_is_at_work() {
 fn what_is_said_keeps_its_line() {
     let slow = "mkfifo slow; { head -n 2 samples.ndjson; sleep 2; tail -n 1 samples.ndjson; } > slow &";
     let shown = plain(&on_terminal(slow, "vestimate slow -v -o out.ndjson").stdout);
-    assert!(shown.contains("vestimate: 1 samples, "), "{shown:?}");
+    assert!(shown.contains("vestimate: 1 sample, "), "{shown:?}");
     let said: Vec<_> = shown.split('\n').filter(|line| line.contains("residual")).collect();
     assert_eq!(said.len(), 2, "{shown:?}");
     for line in said {

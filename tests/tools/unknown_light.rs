@@ -117,8 +117,10 @@ fn what_needs_a_light_refuses_one_that_is_unknown() {
         ),
         ("vestimate photo.ndjson --prior smooth", "an unknown light is found only"),
         ("vestimate photo.ndjson --join", "an unknown light is found only"),
-        ("vestimate photo.ndjson --illuminant D65", "scenes already have a light"),
+        ("vestimate photo.ndjson --illuminant D65", "stated to vextract or vforward"),
         ("vestimate --plan scene.json --illuminant unknown", "cannot be used with --plan"),
+        ("vestimate --plan photo.ndjson --illuminant D65", "--illuminant: the scene already has a camera"),
+        ("vestimate --plan photo.ndjson --camera nikon-d5100", "--camera: the scene already has a camera"),
     ] {
         let run = folder.sh(line);
         assert_ne!(run.status, 0, "{line}");

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use nalgebra::DMatrix;
 use vfold::Result;
 use vfold::cli::refuse;
+use vfold::error::counted;
 use vfold::estimate::Estimate;
 use vfold::forward::FacetModel;
 use vfold::paper::components::{FlatSheet, autocorrelation};
@@ -138,7 +139,8 @@ impl FlatContext {
 impl fmt::Display for FlatContext {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { method, components, basis_name, smoothness, .. } = self;
-        write!(f, "{}, {components} components of {basis_name}, smoothness {smoothness:e}", method.name)
+        let components = counted(components, "component");
+        write!(f, "{}, {components} of {basis_name}, smoothness {smoothness:e}", method.name)
     }
 }
 

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::str::FromStr;
 
+use vfold::error::counted;
 use vfold::estimate::Exposure;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::measurement::{Facets, Measurement, Photographed, of_one_sheet};
@@ -166,7 +167,8 @@ impl Together for Estimator<'_> {
         let ids: Vec<String> = members.iter().map(|one| one.sample.id()).collect();
         let (parts, pictures): (Vec<Parts>, Vec<_>) = pictures.into_iter().unzip();
         let sheet = of_one_sheet(&parts, &ids, self.prior_of(first)?)?;
-        let how = format!("prior {}, with {} photographs of the sheet", self.args().prior(), ids.len());
+        let how =
+            format!("prior {}, with {} of the sheet", self.args().prior(), counted(ids.len(), "photograph"));
         let estimates = members.iter_mut().zip(pictures).zip(sheet.photographs);
         let joined = |((one, (rgb, sd, photograph)), estimate): ((&mut Member<Context>, Taken), _)| {
             let facets = Facets {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use vfold::Result;
+use vfold::error::counted;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::noise::{Noise, NoiseSource};
 use vfold::estimate::{Estimate, Exposure};
@@ -50,7 +51,7 @@ impl fmt::Display for Deviations {
 /// The numbers of facet values before and after compression.
 pub fn size(data: &FacetData) -> String {
     let (left, values) = data.size();
-    format!("{values} values compressed to {left}")
+    format!("{} compressed to {left}", counted(values, "value"))
 }
 
 /// The result, in one line.
@@ -61,7 +62,7 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
         Termination::NoProgress { .. } => "stopped without progress",
     };
     let sd = estimate.reflectance_sd();
-    let iterations = format!("{} iterations, {ended}", estimate.iterations);
+    let iterations = format!("{}, {ended}", counted(estimate.iterations, "iteration"));
     let reduced_chi = match &sd {
         Some(_) => format!("residual {:.2} times the noise", estimate.residual_rms),
         // for a method that weights all facets equally

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use rayon::prelude::*;
-use vfold::cli::{self, Common, OpticsArgs};
+use vfold::cli::{self, Common, OpticsArgs, refuse};
 use vfold::estimate::measured::Measured;
 use vfold::estimate::noise::deviations;
 use vfold::estimate::photograph::{self, Parts};
@@ -104,12 +104,10 @@ impl PlanArgs {
             [] => Ok(false),
             [_] if is_unknown => Ok(true),
             _ => {
-                let problem = "the scenes already have a light";
-                Err(Error::usage(
-                    "--illuminant",
-                    problem,
-                    "leave it out, give 'unknown', or add --plan or --kernel",
-                ))
+                let problem = "the light of samples is stated to vextract or vforward, which made them";
+                let remedy = "give it there, or 'unknown' here to have it found; \
+                              only --plan and --kernel take the name of a light here";
+                Err(Error::usage("--illuminant", problem, remedy))
             }
         }
     }
@@ -117,16 +115,17 @@ impl PlanArgs {
     /// Adds camera and light to a scene without them.
     pub fn complete(&self, scene: &mut Scene, common: &Common) -> Result<()> {
         if scene.has_camera() {
-            let flags = [&self.camera, &self.sky_illuminant];
-            if flags.iter().any(|flag| flag.is_some()) || !self.illuminant.is_empty() {
-                let problem = "the scene already has a camera and an illuminant";
-                return Err(Error::usage(
-                    "--camera",
-                    problem,
-                    "leave these flags out, or plan with a scene from vkernel",
-                ));
-            }
-            return Ok(());
+            let flags = [
+                ("--camera", self.camera.is_some()),
+                ("--illuminant", !self.illuminant.is_empty()),
+                ("--sky-illuminant", self.sky_illuminant.is_some()),
+            ];
+            let problem = "the scene already has a camera, and its light is stated or to be found";
+            return refuse(
+                flags,
+                problem,
+                "leave it out, or plan with a scene from vkernel, which has neither",
+            );
         }
         let daylight = vec![ASSUMED_LIGHT.to_owned()];
         let optics = OpticsArgs {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use vfold::calibrate::Calibration;
 use vfold::cli::Common;
+use vfold::error::counted;
 use vfold::forward::OpenLight;
 use vfold::image::{FacetMeasurement, Grid, Lens, Photograph};
 use vfold::scene::Setting;
@@ -77,8 +78,8 @@ impl CalibrationArgs {
         let chart = common.reflectances(&self.chart_reference)?;
         let (rows, cols) = self.chart_grid;
         if rows.checked_mul(cols) != Some(chart.len()) {
-            let (reference, count) = (&self.chart_reference, chart.len());
-            let problem = format!("{rows}x{cols} does not match the {count} patches of '{reference}'");
+            let (reference, patches) = (&self.chart_reference, counted(chart.len(), "patch"));
+            let problem = format!("{rows}x{cols} does not match the {patches} of '{reference}'");
             return Err(Error::usage(
                 "--chart-grid",
                 problem,

@@ -133,11 +133,11 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let reading = args.reading.reading()?;
     let images = list::images(args)?;
     args.pictures.check(&images)?;
+    args.placing.check()?;
     let balance = |photograph: &Photograph| balance::of_photograph(args, photograph);
     if args.pictures.preview(&images, |path| reading.open(path), balance)? {
         return Ok(());
     }
-    args.placing.check()?;
     if args.find {
         return finding::print(args, &images, &reading, out);
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use vfold::Error;
+use vfold::error::counted;
 use vfold::image::{FacetMeasurement, PhotographInfo, Processing};
 
 /// Possible causes of a wrong spectrum, one line each.
@@ -40,7 +41,8 @@ fn clipped(info: &PhotographInfo, facets: &[FacetMeasurement]) -> Option<String>
              as clipped; expose it less"
         )),
         None if left_out > 0 => Some(format!(
-            ": {left_out} facets are left out: more than 2 % of their pixels are clipped; expose it less"
+            ": left out for more than 2 % of clipped pixels: {}; expose it less",
+            counted(left_out, "facet")
         )),
         _ => None,
     }

@@ -16,15 +16,16 @@ use super::{Args, balance, finding, reading::Reading};
 
 const PAGE: &str = include_str!("../../../share/picker.html");
 /// A page left open for longer has been forgotten.
-const WAIT: Duration = Duration::from_secs(600);
+const WAIT: Duration = Duration::from_secs(60 * WAIT_MINUTES);
+const WAIT_MINUTES: u64 = 10;
 /// Commands that show a page in a browser, by system.
 const OPENERS: [&str; 2] = ["xdg-open", "open"];
 
 /// Prints what a person marks in the photograph, starting with the detected fold.
 ///
 /// # Errors
-/// [`Error::Usage`] for several photographs, as [`Reading::open`], [`write_preview`] and
-/// [`cli::ask_on_page`].
+/// [`Error::Usage`] for several photographs, [`Error::Picture`] if nobody marks corners, as
+/// [`Reading::open`], [`write_preview`] and [`cli::ask_on_page`].
 pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Output) -> Result<()> {
     let [path] = images else {
         let problem = format!("{} photographs, but the page shows one", images.len());
@@ -60,7 +61,9 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
         _ => Reply::Refused("there is no page of this name".to_owned()),
     };
     let line = cli::ask_on_page(&files, WAIT, |address| show(path, address), reply)?;
-    out.text(&line)
+    let problem = format!("no corners came from the page within {WAIT_MINUTES} minutes");
+    let remedy = "run it again, or give --panel0 and --panel1";
+    out.text(&line.ok_or_else(|| Error::picture(path, problem, remedy))?)
 }
 
 /// The photograph in a format for browsers.

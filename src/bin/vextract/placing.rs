@@ -1,5 +1,7 @@
 //! Refines the positions of panels.
 
+use std::ops::RangeInclusive;
+
 use clap::Args;
 use vfold::image::{Grid, Lens, Photograph, REFINED_WITHIN_PX, Refinement, refine};
 use vfold::scene::MarkedPanels;
@@ -7,7 +9,7 @@ use vfold::{Error, Result, cli};
 
 #[derive(Args)]
 pub struct PlacingArgs {
-    /// Move the panels' corners to the edges and the crease within PX pixels, up to 100, instead of 6, and
+    /// Move the panels' corners to the edges and the crease within PX pixels, 1 to 100, instead of 6, and
     /// report sides that have no edge
     #[arg(long, value_name = "PX", num_args = 0..=1, require_equals = true, default_missing_value = "6")]
     refine: Option<f64>,
@@ -33,11 +35,12 @@ impl PlacingArgs {
     /// [`Error::Usage`] if the reach is not a valid distance.
     pub fn check(&self) -> Result<()> {
         let px = self.reach_px();
-        if px > 0.0 && px <= MOST_PX {
+        if REACH_PX.contains(&px) {
             return Ok(());
         }
         let problem = format!("{px} px is out of range");
-        Err(Error::usage("--refine", problem, "give 1 to 100, such as --refine=6"))
+        let remedy = format!("give {} to {}, such as --refine=6", REACH_PX.start(), REACH_PX.end());
+        Err(Error::usage("--refine", problem, remedy))
     }
 
     /// Search distance for edges around the corners, px.
@@ -81,8 +84,8 @@ impl PlacingArgs {
     }
 }
 
-/// Corners further off should be marked again.
-const MOST_PX: f64 = 100.0;
+/// An edge is found where pixels differ, not within one; corners further off should be marked again.
+const REACH_PX: RangeInclusive<f64> = 1.0..=100.0;
 
 /// Reports displacements of corners if `verbose`, and sides without edges unless `quiet`.
 pub fn report(refinement: &Refinement, name: &str, verbose: bool, quiet: bool) {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use vfold::calibrate::Calibration;
 use vfold::cli;
+use vfold::error::counted;
 use vfold::geometry::Panel;
 use vfold::image::{
     CornersBy, FacetMeasurement, FlatField, Grid, Lens, MeasuredPanels, Photograph, measure_panels,
@@ -182,7 +183,7 @@ impl Setup<'_> {
             return Ok(());
         }
         let kind = if seen == 1 { "a grey picture" } else { "an RGB picture" };
-        let problem = format!("{kind}, but the scene's camera has {of_camera} channels");
+        let problem = format!("{kind}, but the scene's camera has {}", counted(of_camera, "channel"));
         Err(Error::picture(path, problem, "give the camera that took it (--camera), or the original picture"))
     }
 
@@ -202,9 +203,9 @@ impl Setup<'_> {
             (total(|facet| facet.outliers), total(|facet| usize::from(facet.mean.is_none())));
         let transfer = photograph.info().transfer_used.name();
         let pixels =
-            format!("{clipped} clipped, {not_finite} non-finite and {outliers} outlying pixels left out");
+            format!("pixels left out: {clipped} clipped, {not_finite} non-finite, {outliers} outlying");
         let mut text =
-            format!("{transfer} curve, {pixels}, {unseen} of {} facets not measured", facets.len());
+            format!("{transfer} curve, {pixels}; {unseen} of {} facets not measured", facets.len());
         if let Some(calibration) = calibration {
             text += &format!("; {calibration}");
         }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use vfold::calibrate::{Calibration, Patch};
 use vfold::camera::{ChartCamera, ChartPatch};
+use vfold::error::counted;
 use vfold::forward::OpenLight;
 use vfold::image::{
     FacetMeasurement, Grid, Homography, Lens, Photograph, Point, corner_orders, measure_patches,
@@ -108,7 +109,7 @@ impl Target {
     pub fn measure(&self, view: &View, corners: Corners) -> Result<Vec<Patch>> {
         let (seen, known) = (view.photograph.channels(), view.light.sun().channels());
         if seen != known {
-            let problem = format!("the photograph has {seen} channels, the camera {known}");
+            let problem = format!("the photograph has {}, the camera {known}", counted(seen, "channel"));
             return Err(Error::picture(view.path, problem, "give the photograph's --camera"));
         }
         let patch = |(seen, (name, reflectance)): (Seen, &(String, Vec<f64>))| Patch {
@@ -174,7 +175,7 @@ impl Target {
     ) -> Result<ChartCamera> {
         let (path, photograph) = of;
         if photograph.channels() != 3 {
-            let problem = format!("the photograph has {} channels", photograph.channels());
+            let problem = format!("the photograph has {}", counted(photograph.channels(), "channel"));
             return Err(Error::picture(path, problem, "--save-camera needs R, G and B"));
         }
         let seen = self.seen(of, lens, corners)?;

@@ -187,7 +187,7 @@ fn skip_unseen(args: &Args, scene: &mut Scene) -> Result<()> {
     let bands = scene.grid()?.len();
     let unseen = bands - Setting::of(scene)?.open_light()?.seen_bands().len();
     if unseen > 0 && args.common.verbose {
-        cli::say("vforward", &format!("{unseen} of {bands} wavebands are seen by no channel: skipped"));
+        cli::say("vforward", &format!("skipped {unseen} of {bands} wavebands: no channel sees them"));
     }
     scene.set_skipped("wavebands", unseen, "no sensor sees them")
 }

@@ -142,7 +142,7 @@ impl<'a> Setup<'a> {
     }
 
     fn facet_reflectance(&self, path: &Path) -> Result<DMatrix<f64>> {
-        let shape = [(self.setting.facets()?, "facets"), (self.scene.grid()?.len(), "wavebands")];
+        let shape = [(self.setting.facets()?, "facet"), (self.scene.grid()?.len(), "waveband")];
         let reflectance = read_matrix(path, shape)?;
         match reflectance.iter().find(|r| !(0.0..=1.0).contains(*r)) {
             Some(r) => Err(Error::Array {

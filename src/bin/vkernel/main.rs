@@ -13,6 +13,7 @@ use clap::{Parser, ValueEnum};
 use light::LightArgs;
 use shape::ShapeArgs;
 use vfold::cli::{self, Common, ToolArgs};
+use vfold::error::counted;
 use vfold::geometry::FacetGrid;
 use vfold::kernel::mesh::{Accuracy, Mesh};
 use vfold::kernel::skipped::Skipped;
@@ -78,9 +79,10 @@ struct Args {
     /// [default: auto; facets unless --method is exact]
     #[arg(long, value_name = "auto|facets|ROWSxCOLS|CELLS", value_parser = mesh)]
     mesh: Option<Mesh>,
-    /// Relative error of facet means that --mesh auto may leave, for reflectances up to 1, 1e-12 to 0.1
-    /// [default: 1e-5, or the least that a narrow fold allows; on shapes 5e-3, or the least possible, for
-    /// reflectances up to 0.9, relative to a tenth of the mean for dark facets]
+    /// Relative error of facet means that --mesh auto may leave, for reflectances up to 1, 1e-12 to 0.1; on
+    /// shapes and with --light 1e-6 to 0.1, for reflectances up to 0.9, relative to a tenth of the mean for
+    /// dark facets [default: 1e-5, or the least that a narrow fold allows; on shapes 5e-3, or the least
+    /// possible]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     tolerance: Option<f64>,
     /// Angle of the sun off the plane that halves the fold, degrees, less than half of --angle-deg;
@@ -164,10 +166,10 @@ fn say_work(args: &Args, accuracy: &Accuracy, poles: usize, skipped: &[Skipped])
         return;
     }
     let error = accuracy.facet_mean_error.map_or("not estimated".to_owned(), |error| format!("{error:.1e}"));
-    let unknowns = accuracy.unknowns;
-    cli::say("vkernel", &format!("{unknowns} unknowns, {poles} poles, error of facet means {error}"));
+    let (unknowns, poles) = (counted(accuracy.unknowns, "unknown"), counted(poles, "pole"));
+    cli::say("vkernel", &format!("{unknowns}, {poles}, error of facet means {error}"));
     for Skipped { what, count, why } in skipped {
-        cli::say("vkernel", &format!("skipped {count} {what}: {why}"));
+        cli::say("vkernel", &format!("skipped {what} ({count}): {why}"));
     }
 }
 

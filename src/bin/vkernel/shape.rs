@@ -130,14 +130,17 @@ fn check(args: &Args) -> Result<()> {
         ("--check", args.check, "leave it out: the kernel of a shape is checked as it is made"),
         ("--tilt-deg", sun_is_elsewhere && args.tilt_deg != 0.0, remedy),
         ("--slant-deg", sun_is_elsewhere && args.slant_deg != 0.0, remedy),
-        (
-            "--tolerance",
-            args.tolerance.is_some_and(|tolerance| tolerance < TOLERANCE_MIN),
-            "give 1e-6 or more",
-        ),
     ];
-    let problem =
-        if args.shape.is_shape() { "not for shapes" } else { "not with --light, --sky-type or --zenith" };
+    let (problem, with) = if args.shape.is_shape() {
+        ("not for shapes", "on shapes")
+    } else {
+        ("not with --light, --sky-type or --zenith", "with --light, --sky-type or --zenith")
+    };
+    if let Some(tolerance) = args.tolerance.filter(|tolerance| *tolerance < TOLERANCE_MIN) {
+        let why = "form factors are then stored in single precision";
+        let problem = format!("{tolerance:e} cannot be kept {with}: {why}");
+        return Err(Error::usage("--tolerance", problem, format!("give {TOLERANCE_MIN:e} to 0.1")));
+    }
     flags.into_iter().try_for_each(|(flag, flags, remedy)| cli::refuse([(flag, flags)], problem, remedy))
 }
 

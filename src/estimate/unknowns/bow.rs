@@ -6,7 +6,7 @@ use crate::estimate::photograph::StatedScene;
 /// Turn of both panels over their depth, degrees.
 pub static BOW: Unknown = Unknown {
     name: "bow_deg",
-    description: "Angle by which both panels turn over their depth",
+    description: "Curvature of the panels: angle by which both turn from the crease to the outer side",
     unit: Some("degrees"),
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,

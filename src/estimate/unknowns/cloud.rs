@@ -6,7 +6,7 @@ use crate::estimate::photograph::StatedScene;
 /// Share of the sky's light with the distribution of an overcast sky; the rest has that of a clear one.
 pub static CLOUD: Unknown = Unknown {
     name: "cloud",
-    description: "Share of the sky's light that is an overcast sky's",
+    description: "Share of the sky's light that is distributed as that of an overcast sky",
     unit: None,
     flag: &AUTO,
     range: 0.0..=1.0,

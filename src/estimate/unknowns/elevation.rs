@@ -6,7 +6,7 @@ use crate::estimate::photograph::StatedScene;
 /// Angle between the horizon and the direction in which the fold opens, degrees.
 pub static ELEVATION: Unknown = Unknown {
     name: "elevation_deg",
-    description: "How far above the horizon the fold opens",
+    description: "Angle above the horizon of the direction into which the fold opens",
     unit: Some("degrees"),
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,

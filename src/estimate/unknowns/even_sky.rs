@@ -6,8 +6,8 @@ use crate::estimate::photograph::StatedScene;
 /// Irradiance on an open plane from uniform light, relative to the sun's on a plane facing it.
 pub static EVEN_SKY: Unknown = Unknown {
     name: "even_sky",
-    description: "Irradiance of an open plane by light that is alike in all directions, \
-                  relative to the sun's",
+    description: "Irradiance that light equal from all directions gives an unobstructed plane, \
+                  relative to that which the sun gives a plane facing it",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,

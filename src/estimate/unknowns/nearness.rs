@@ -6,7 +6,7 @@ use crate::estimate::photograph::StatedScene;
 /// Panel depth divided by the distance of the lamp that lights the sheet; 0 for the sun.
 pub static NEARNESS: Unknown = Unknown {
     name: "nearness",
-    description: "Depth of a panel over the distance of the lamp that lights it",
+    description: "Depth of a panel divided by the distance of the lamp that lights it; 0 for the sun",
     unit: None,
     flag: &AUTO,
     range: f64::NEG_INFINITY..=f64::INFINITY,
@@ -21,10 +21,12 @@ pub static NEARNESS: Unknown = Unknown {
             ideal: |_| 0.0,
             least: 0.02,
             words: |Fitted { value, .. }, _| {
-                format!(
-                    "light falls off over the panels, like that of a lamp {:.0} panel depths away",
-                    value.abs().recip()
-                )
+                let depths = value.abs().recip();
+                let away = match depths.round() > 1.0 {
+                    true => format!("{depths:.0} panel depths away"),
+                    false => "no further than a panel's depth away".to_owned(),
+                };
+                format!("light falls off over the panels, like that of a lamp {away}")
             },
             remedy: "photograph the sheet in the sun, or move the lamp further away",
         }),

@@ -6,8 +6,8 @@ use crate::estimate::photograph::StatedScene;
 /// Sheen: brightening of the body at grazing incidence or viewing by upright fibres, as in felt.
 pub static SHEEN: Unknown = Unknown {
     name: "sheen",
-    description: "Sheen: brightening of the body at grazing incidence or viewing, by fibres that stand up, \
-                  as those of felt",
+    description: "Sheen: brightening of the body at grazing incidence or viewing, by upright fibres, \
+                  as in felt",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,

@@ -10,8 +10,8 @@ use crate::estimate::photograph::StatedScene;
 /// Irradiance from the sky on a plane facing the sun, relative to the sun's.
 pub static SKY: Unknown = Unknown {
     name: "sky",
-    description: "Diffuse-to-direct ratio: irradiance by the sky of an open plane that faces the sun, \
-                  relative to the sun's",
+    description: "Diffuse-to-direct ratio: irradiance that the sky gives an unobstructed plane facing \
+                  the sun, relative to that which the sun gives it",
     unit: None,
     flag: &Flag {
         value: "sky",

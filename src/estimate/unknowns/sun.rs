@@ -6,8 +6,8 @@ use crate::estimate::photograph::StatedScene;
 /// Irradiance from the hidden sun on a plane facing it, relative to the sky's on an open horizontal plane.
 pub static SUN: Unknown = Unknown {
     name: "sun",
-    description: "Irradiance by the hidden sun of a plane that faces it, relative to the sky's \
-                  of an open horizontal plane",
+    description: "Irradiance that the hidden sun gives a plane facing it, relative to that which the sky \
+                  gives an unobstructed horizontal plane",
     unit: None,
     flag: &AUTO,
     range: 0.0..=f64::INFINITY,

@@ -2,6 +2,7 @@
 
 use super::homography::Homography;
 use super::point::Point;
+use crate::error::counted;
 use crate::{Error, Result};
 
 /// The corners of a panel, in input order.
@@ -43,7 +44,7 @@ pub fn parse_corners(flag: &'static str, text: &str, names: &[&str; 4]) -> Resul
         })
         .collect::<Result<Vec<_>>>()?;
     let corners = <[Point; 4]>::try_from(found).map_err(|found| {
-        Error::usage(flag, format!("found {} corners instead of 4", found.len()), remedy())
+        Error::usage(flag, format!("found {} instead of 4", counted(found.len(), "corner")), remedy())
     })?;
     match Homography::from_unit_square(corners) {
         Err(Error::Corners { problem, .. }) => Err(Error::usage(flag, problem, remedy())),

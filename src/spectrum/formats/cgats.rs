@@ -11,7 +11,7 @@ use super::place::Place;
 use super::quantity::Quantity;
 use super::table::{Stated, Table};
 use super::units::Scale;
-use crate::error::Result;
+use crate::error::{Result, counted};
 use crate::spectrum::Spectrum;
 use crate::spectrum::grid::check_rising;
 
@@ -37,7 +37,7 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Table> {
             without_spectra.get_or_insert(header.at);
             continue;
         };
-        header.agrees("NUMBER_OF_SETS", rows.len(), "rows of data")?;
+        header.agrees("NUMBER_OF_SETS", rows.len(), "row")?;
         for (row, at) in rows {
             let spectrum = columns.spectrum(&header, &words(row), spectra.len() + 1, at)?;
             if !names.insert(spectrum.name().to_owned()) {
@@ -135,10 +135,10 @@ impl<'a> Header<'a> {
     }
 
     /// Checks a count if the file gives it.
-    fn agrees(&self, key: &str, count: usize, what: &str) -> Result<()> {
+    fn agrees(&self, key: &str, count: usize, one: &str) -> Result<()> {
         match self.keywords.get(key) {
             Some((stated, at)) if stated.parse() != Ok(count) => Err(at.fails(
-                format!("{key} is '{stated}', but there are {count} {what}"),
+                format!("{key} is '{stated}', but the file has {}", counted(count, one)),
                 "export the file again",
             )),
             _ => Ok(()),
@@ -163,7 +163,7 @@ impl Columns {
         if values.is_empty() {
             return Ok(None);
         }
-        header.agrees("NUMBER_OF_FIELDS", header.fields.len(), "columns")?;
+        header.agrees("NUMBER_OF_FIELDS", header.fields.len(), "column")?;
         let nm = spectral_nm(header, &named_nm)?.unwrap_or(named_nm);
         check_rising(&nm)
             .map_err(|e| header.at.fails(e.to_string(), "give the columns in the order of wavelengths"))?;
@@ -182,7 +182,8 @@ impl Columns {
     fn spectrum(&self, header: &Header, row: &[String], number: usize, at: Place) -> Result<Spectrum> {
         let count = header.fields.len();
         if row.len() != count {
-            let problem = format!("{} values, but the format has {count} columns", row.len());
+            let (values, columns) = (counted(row.len(), "value"), counted(count, "column"));
+            let problem = format!("{values}, but the format has {columns}");
             return Err(at.fails(problem, "give every column a value in every row"));
         }
         let value = |&k: &usize| Ok(at.number(&header.fields[k], &row[k])? / self.norm);
@@ -201,7 +202,7 @@ fn wavelength_nm(field: &str) -> Option<f64> {
 /// Wavelengths from `SPECTRAL_BANDS`, `SPECTRAL_START_NM` and `SPECTRAL_END_NM`, which have the digits
 /// missing from names.
 fn spectral_nm(header: &Header, named_nm: &[f64]) -> Result<Option<Vec<f64>>> {
-    header.agrees("SPECTRAL_BANDS", named_nm.len(), "columns of spectra")?;
+    header.agrees("SPECTRAL_BANDS", named_nm.len(), "spectral column")?;
     let ends = (header.number("SPECTRAL_START_NM")?, header.number("SPECTRAL_END_NM")?);
     let (Some((start_nm, at)), Some((end_nm, _))) = ends else { return Ok(None) };
     let step_nm = (end_nm - start_nm) / (named_nm.len() - 1).max(1) as f64;
@@ -291,9 +292,9 @@ mod tests {
     #[test]
     fn files_that_lie_are_refused() {
         for (header, format, data, want) in [
-            ("SPECTRAL_BANDS -5", "SPEC_400 SPEC_500", "1 2", "SPECTRAL_BANDS is '-5', but there are 2"),
-            ("NUMBER_OF_SETS 1000000000000", "SPEC_400 SPEC_500", "1 2", "but there are 1 rows"),
-            ("NUMBER_OF_FIELDS 3", "SPEC_400 SPEC_500", "1 2", "but there are 2 columns"),
+            ("SPECTRAL_BANDS -5", "SPEC_400 SPEC_500", "1 2", "SPECTRAL_BANDS is '-5', but the file has 2"),
+            ("NUMBER_OF_SETS 1000000000000", "SPEC_400 SPEC_500", "1 2", "but the file has 1 row"),
+            ("NUMBER_OF_FIELDS 3", "SPEC_400 SPEC_500", "1 2", "but the file has 2 columns"),
             ("SPECTRAL_NORM 0", "SPEC_400 SPEC_500", "1 2", "SPECTRAL_NORM 0 is not a scale"),
             ("SPECTRAL_NORM nan", "SPEC_400 SPEC_500", "1 2", "'nan' is not a number"),
             ("SPECTRAL_START_NM 380\nSPECTRAL_END_NM 500", "SPEC_400 SPEC_500", "1 2", "400 nm is 380 nm"),
@@ -301,7 +302,7 @@ mod tests {
             ("", "SPEC_500", "1", "fewer than two wavelengths"),
             ("", "RGB_R RGB_G", "1 2", "no columns of spectra"),
             ("", "SPEC_400 SPEC_500", "1 nan", "column 'SPEC_500': 'nan' is not a number"),
-            ("", "SPEC_400 SPEC_500", "1 2\n3", "x.sp:8: 1 values, but the format has 2 columns"),
+            ("", "SPEC_400 SPEC_500", "1 2\n3", "x.sp:8: 1 value, but the format has 2 columns"),
             ("", "SPEC_400 SPEC_500", "1 1e308", "is too large"),
             ("", "SPEC_400 SPEC_500", "", "no samples"),
             ("", "SAMPLE_ID SPEC_400 SPEC_500", "a 1 2\na 3 4", "two samples are called 'a'"),

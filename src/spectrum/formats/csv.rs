@@ -12,7 +12,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use super::place::{Place, finite};
 use super::table::{MAX_SPECTRA, Stated, Table};
 use super::units::{self, Scale};
-use crate::error::Result;
+use crate::error::{Result, counted};
 use crate::message::is_formula;
 use crate::spectrum::Spectrum;
 
@@ -59,7 +59,7 @@ pub(super) fn parse_from(Place { path, line }: Place, text: &str) -> Result<Tabl
         read_row(&row, &names, &mut marks, &mut columns, &at)?;
     }
     if columns[0].len() < 2 {
-        let problem = format!("{} rows of numbers below the header", columns[0].len());
+        let problem = format!("{} of numbers below the header", counted(columns[0].len(), "row"));
         return Err(at.fails(problem, "a spectrum needs at least two wavelengths"));
     }
     let first = wavelength_column(&names, &columns);
@@ -231,7 +231,8 @@ fn read_row(
     at: &Place,
 ) -> Result<()> {
     if row.len() != names.len() {
-        let problem = format!("{} values, but the header has {} columns", row.len(), names.len());
+        let (values, columns) = (counted(row.len(), "value"), counted(names.len(), "column"));
+        let problem = format!("{values}, but the header has {columns}");
         return Err(at.fails(problem, "give every column a value in every row"));
     }
     for ((cell, name), column) in cells(row).zip(names).zip(columns.iter_mut()) {
@@ -330,19 +331,19 @@ mod tests {
             ("400,1\n500,1", "x.csv:1: numbers where the header should be; write a header"),
             ("nm,R,R\n400,1,1", "x.csv:1: column 3 has no name of its own ('R'); name every column once"),
             ("nm,R\n", "x.csv:1: 0 rows of numbers below the header; a spectrum needs"),
-            ("nm,R\n400,1", "x.csv:1: 1 rows of numbers"),
+            ("nm,R\n400,1", "x.csv:1: 1 row of numbers"),
             ("nm,R\n400,1\n500,a", "x.csv:3: column 'R': 'a' is not a number; write a finite"),
             ("nm,R\n400,NaN\n500,1", "x.csv:2: column 'R': 'NaN' is not a number"),
             ("nm,R\n400,1\n500,1e999", "x.csv:3: column 'R': '1e999' is not a number"),
             ("nm,R\n400,1\n400,1", "x.csv:3: wavelength 400 nm follows 400 nm; sort"),
-            ("nm,R\n400,1\n500", "x.csv:3: 1 values, but the header has 2 columns"),
+            ("nm,R\n400,1\n500", "x.csv:3: 1 value, but the header has 2 columns"),
             ("nm,R\n400,1\n\n500,1", "x.csv:3: a blank line; delete it"),
             ("nm,R\n400,1\n500,\"1\n600,2", "x.csv:3: a quoted cell does not end on its line; close"),
             ("nm,R\n400,1\n500,\"1,5\"", "x.csv:3: column 'R': '1,5' is not a number; write a finite"),
             ("nm;R\n400;1,5\n500;1.5", "x.csv:3: column 'R': '1.5' has another decimal mark than"),
             ("nm;R\n400;1.5\n500;1,500", "x.csv:3: column 'R': '1,500' has another decimal mark than"),
             ("nm;R\n400;1,5\n500;1,500,0", "x.csv:3: column 'R': '1,500,0' is not a number"),
-            ("nm;R\n400;1", "x.csv:1: 1 rows of numbers"),
+            ("nm;R\n400;1", "x.csv:1: 1 row of numbers"),
             ("nm,R\n0.4,1\n0.5,1", "x.csv:2: wavelength 0.4 looks like micrometres, not nm; give all"),
             ("nm,R\n4000,1\n5000,1", "x.csv:2: wavelength 4000 does not look like nm"),
         ];

@@ -13,7 +13,7 @@ use super::place::{Place, finite};
 use super::quantity::Quantity;
 use super::table::{Stated, Table};
 use super::units;
-use crate::error::Result;
+use crate::error::{Result, counted};
 use crate::markup::escaped;
 use crate::spectrum::Spectrum;
 
@@ -71,7 +71,7 @@ fn distribution<'a>(name: String, block: Node, place: impl Fn(Node) -> Place<'a>
     }
     let at = place(block);
     if values.len() < 2 {
-        let problem = format!("{} elements <SpectralData>", values.len());
+        let problem = format!("{} <SpectralData>", counted(values.len(), "element"));
         return Err(at.fails(problem, "a spectrum needs at least two wavelengths"));
     }
     let (wavelengths_nm, _) = units::to_nm(at, "nm", &wavelengths, at.line)?;
@@ -177,7 +177,7 @@ mod tests {
             ("<a></b>".to_owned(), "x.spdx:1: not readable XML"),
             ("<item/>".to_owned(), "<item> instead of <IESTM2714>"),
             (file(""), "x.spdx:3: 0 elements <SpectralData>"),
-            (file(&datum("400", "0.1")), "1 elements"),
+            (file(&datum("400", "0.1")), "1 element <"),
             (file(&(two.clone() + &datum("450", "0.1"))), "450 nm follows 500 nm"),
             (
                 file(&(two.clone() + &datum("600", "NaN"))),

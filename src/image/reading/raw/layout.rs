@@ -10,6 +10,7 @@ use rawler::imgop::Dim2;
 use super::refused::{check_size, damaged, unread};
 use super::tiff_directories::{Directory, Tiff};
 use crate::Result;
+use crate::error::counted;
 use crate::image::reading::jpeg::Jpeg;
 use crate::image::reading::tiff::tags;
 use crate::image::reading::tiff::written::{long, written};
@@ -160,8 +161,10 @@ impl Layout {
         if !is_read {
             let kind = if *is_float { "floats" } else { "integers" };
             let what = format!(
-                "of {kind} of {bits} bits, compression {}, predictor {}",
-                self.compression, self.predictor
+                "of {kind} of {}, compression {}, predictor {}",
+                counted(bits, "bit"),
+                self.compression,
+                self.predictor
             );
             return Err(unread(path, &what));
         }
@@ -272,7 +275,7 @@ impl Segments {
         let count = columns * rows;
         if offsets.len() != count || lengths.len() != count {
             let problem = format!(
-                "it has {} strips or tiles of the {count} that make up its picture",
+                "the number of its strips or tiles is {} instead of {count}",
                 offsets.len().min(lengths.len())
             );
             return Err(damaged(path, problem));

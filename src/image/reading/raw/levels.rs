@@ -15,6 +15,7 @@ use rawler::imgop::{Point, Rect};
 use super::refused::damaged;
 use super::tiff_directories::Directory;
 use crate::Result;
+use crate::error::counted;
 use crate::image::numbers::{ReadOptions, Scale, Transfer};
 
 const BLACK_REPEAT: u16 = 50713;
@@ -60,7 +61,7 @@ impl Levels {
         let deltas = |tag: u16, name: &str, size: usize, of: &str| match numbers(tag, name)? {
             deltas if deltas.is_empty() || deltas.len() == size => Ok(deltas),
             deltas => {
-                let problem = format!("its {name} has {} numbers for {size} {of}", deltas.len());
+                let problem = format!("its {name} has {} for {size} {of}", counted(deltas.len(), "number"));
                 Err(damaged(path, problem))
             }
         };
@@ -78,8 +79,9 @@ impl Levels {
             origin: active.p,
             by_column: deltas(BLACK_DELTA_H, "BlackLevelDeltaH", active.d.w, "columns")?,
             by_row: deltas(BLACK_DELTA_V, "BlackLevelDeltaV", active.d.h, "rows")?,
-            white: spread(numbers(WHITE, "WhiteLevel")?, 1, samples, full_scale)
-                .ok_or_else(|| damaged(path, format!("its WhiteLevel does not fit {samples} samples")))?,
+            white: spread(numbers(WHITE, "WhiteLevel")?, 1, samples, full_scale).ok_or_else(|| {
+                damaged(path, format!("its WhiteLevel does not fit {}", counted(samples, "sample")))
+            })?,
         })
     }
 

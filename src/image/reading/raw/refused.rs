@@ -5,6 +5,7 @@ use std::path::Path;
 
 use rawler::imgop::Dim2;
 
+use crate::error::counted;
 use crate::image::reading::refused::{DAMAGED, MAX_BYTES, TOO_LARGE};
 use crate::{Error, Result, room};
 
@@ -20,7 +21,7 @@ pub(super) fn check_size(path: &Path, size: Dim2, samples: usize) -> Result<()> 
         return Err(Error::picture(path, format!("{w} x {h} px would take more than 2 GiB"), TOO_LARGE));
     }
     if bytes == 0 {
-        return Err(damaged(path, format!("the picture is {w} x {h} px of {samples} numbers")));
+        return Err(damaged(path, format!("the picture is {w} x {h} px of {}", counted(samples, "number"))));
     }
     room::ask(bytes, &path.display().to_string(), TOO_LARGE)
 }

@@ -15,6 +15,7 @@ use super::dng::Dng;
 use super::levels::Levels;
 use super::opcodes::Opcodes;
 use super::refused::damaged;
+use crate::error::counted;
 use crate::image::numbers::ReadOptions;
 use crate::image::photograph::{CameraNotes, Mosaic, Photograph, PhotographInfo, SensorInfo};
 use crate::{Error, Result};
@@ -82,8 +83,10 @@ impl Sensor {
         if (image.dim(), image.cpp) != (size, samples) {
             let RawImage { width, height, cpp, .. } = image;
             let problem = format!(
-                "its decoder found {width} x {height} px of {cpp} numbers, its tags say {} x {} of {samples}",
-                size.w, size.h
+                "its decoder found {width} x {height} px of {}, its tags say {} x {} of {samples}",
+                counted(cpp, "number"),
+                size.w,
+                size.h
             );
             return Err(damaged(path, problem));
         }

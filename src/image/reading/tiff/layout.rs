@@ -10,6 +10,7 @@ use super::tags::{
     PLANAR_CONFIGURATION, PREDICTOR, ROWS_PER_STRIP, SAMPLE_FORMAT, SAMPLES_PER_PIXEL, STRIP_BYTE_COUNTS,
     STRIP_OFFSETS, TILE_BYTE_COUNTS, TILE_LENGTH, TILE_OFFSETS, TILE_WIDTH, WIDTH,
 };
+use crate::error::counted;
 use crate::image::reading::refused::{MAX_SIDE, damaged, inks};
 use crate::{Error, Result};
 
@@ -233,8 +234,8 @@ impl Layout {
     /// Offsets and lengths of strips or tiles, each entirely within a file of this length.
     fn find_chunks(&self, path: &Path, page: &Directory, length: u64) -> Result<Vec<(u64, u64)>> {
         let (offsets, counts, what) = match self.cut {
-            Cut::Strips(_) => (STRIP_OFFSETS, STRIP_BYTE_COUNTS, "strips"),
-            Cut::Tiles(..) => (TILE_OFFSETS, TILE_BYTE_COUNTS, "tiles"),
+            Cut::Strips(_) => (STRIP_OFFSETS, STRIP_BYTE_COUNTS, "strip"),
+            Cut::Tiles(..) => (TILE_OFFSETS, TILE_BYTE_COUNTS, "tile"),
         };
         let (in_a_plane, rows_of) = self.plane();
         let wanted = in_a_plane * if self.is_planar { self.samples as u64 } else { 1 };
@@ -247,17 +248,18 @@ impl Layout {
         };
         if (offsets.len().min(counts.len()) as u64) < wanted {
             let (there, width, height) = (offsets.len().min(counts.len()), self.width, self.height);
+            let wanted = counted(wanted, what);
             let problem =
-                format!("inconsistent sizes: {width} x {height} px need {wanted} {what}, but it has {there}");
+                format!("inconsistent sizes: {width} x {height} px need {wanted}, but it has {there}");
             return Err(damaged(path, problem));
         }
         let chunks: Vec<_> = offsets.into_iter().zip(counts).take(wanted as usize).collect();
         for (n, (offset, count)) in (0..).zip(&chunks) {
             if offset + count > length {
-                return Err(damaged(path, format!("one of its {what} ends beyond the end of the file")));
+                return Err(damaged(path, format!("one of its {what}s ends beyond the end of the file")));
             }
             if *count == 0 || self.compression == NONE && *count < bytes_of(n) {
-                return Err(damaged(path, format!("one of its {what} has {count} bytes")));
+                return Err(damaged(path, format!("one of its {what}s has {}", counted(count, "byte"))));
             }
         }
         Ok(chunks)
@@ -308,10 +310,14 @@ fn kind(path: &Path, page: &Directory) -> Result<Kind> {
         (FLOATS, 32) => Ok(Kind::F32),
         (FLOATS, 64) => Ok(Kind::F64),
         (INTEGERS | UNDEFINED, bits) => {
-            Err(unread(path, &format!("integers of {bits} bits"), "save it again with 16 bits, or as floats"))
+            let what = format!("integers of {}", counted(bits, "bit"));
+            Err(unread(path, &what, "save it again with 16 bits, or as floats"))
         }
         (SIGNED, _) => Err(unread(path, "signed integers", "save it again with 16 bits, or as floats")),
-        (FLOATS, bits) => Err(unread(path, &format!("floats of {bits} bits"), "save it again with 32 bits")),
+        (FLOATS, bits) => {
+            let what = format!("floats of {}", counted(bits, "bit"));
+            Err(unread(path, &what, "save it again with 32 bits"))
+        }
         _ => Err(unread(path, "complex numbers", "save it again with 16 bits, or as floats")),
     }
 }
@@ -321,7 +327,9 @@ fn alpha(path: &Path, page: &Directory, samples: usize, colours: usize) -> Resul
     const ASSOCIATED: u64 = 1;
     const UNASSOCIATED: u64 = 2;
     if !(colours..=u16::MAX.into()).contains(&samples) {
-        return Err(damaged(path, format!("{samples} samples a pixel are not {colours} colours")));
+        let problem =
+            format!("it has {} a pixel for {}", counted(samples, "sample"), counted(colours, "colour"));
+        return Err(damaged(path, problem));
     }
     let extra = page.numbers(EXTRA_SAMPLES);
     let is_alpha = |kind: &u64| matches!(*kind, ASSOCIATED | UNASSOCIATED);
