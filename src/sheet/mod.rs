@@ -154,7 +154,8 @@ impl Parts {
     }
 }
 
-/// Albedo of a reflection, given for all [`HEMISPHERES`]: the average over cosine-weighted incidence and exit.
+/// Albedo of a reflection, given for all [`HEMISPHERES`]: the average over cosine-weighted incidence and
+/// exit.
 fn bihemispherical(reflections: &[f64]) -> f64 {
     reflections.iter().zip(&HEMISPHERES.1).map(|(value, weight)| weight * value).sum()
 }

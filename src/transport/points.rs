@@ -36,13 +36,13 @@ pub struct Points {
     /// From the sun to the eye, by point.
     from_sun: AngleList,
     /// All paths of light with two reflections, by point, each with as many.
-    ways: Ways,
+    paths: Paths,
     pooling: Pooling,
 }
 
 /// Paths of light with two reflections.
 #[derive(Default)]
-struct Ways {
+struct Paths {
     /// Reflection by the other panel, and then at the point.
     at_other: AngleList,
     at_point: AngleList,
@@ -63,7 +63,7 @@ impl Points {
         let rules = directions.map(Rule::gauss_legendre);
         let count = 2 * out.len() * along.len();
         let (mut lit, mut from_sun) = (Vec::with_capacity(count), AngleList::default());
-        let mut ways = Ways::default();
+        let mut paths = Paths::default();
         for (here, other) in [(&frames[0], &frames[1]), (&frames[1], &frames[0])] {
             for place in out.iter().flat_map(|out| along.iter().map(move |along| (out, along))) {
                 let place = [place.0 * here.depth, (place.1 - 0.5) * here.width];
@@ -71,12 +71,12 @@ impl Points {
                 lit.push([here.lit(), other.lit()]);
                 from_sun.extend([Angles::new(&here.sun, &to_eye)]);
                 if !fold.is_flat() {
-                    ways.add(here, other, place, &to_eye, &rules);
+                    paths.add(here, other, place, &to_eye, &rules);
                 }
             }
         }
         let pooling = Pooling::smooth(fold, &out, &along);
-        Self { lit, from_sun, ways, pooling }
+        Self { lit, from_sun, paths, pooling }
     }
 
     /// Facet means of the radiance towards the eye minus that of a Lambertian sheet: facets by albedos.
@@ -84,7 +84,7 @@ impl Points {
     pub fn departures(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
         let mut values = Array2::zeros((self.lit.len(), albedos.len()));
         let [body, surface] = shape.at_each(&self.from_sun);
-        let twice = self.ways.twice(shape, self.lit.len());
+        let twice = self.paths.twice(shape, self.lit.len());
         for (point, (mut row, lit)) in values.outer_iter_mut().zip(&self.lit).enumerate() {
             let twice = twice[point];
             for (value, &albedo) in row.iter_mut().zip(albedos) {
@@ -98,7 +98,7 @@ impl Points {
     }
 }
 
-impl Ways {
+impl Paths {
     /// Adds all directions from which light of the `other` panel reaches a point.
     fn add(
         &mut self,

@@ -36,8 +36,8 @@ fn cgats_tables() {
 END
         "#,
         &[
-            case("sh forward negative.sp", 1, &["negative.sp:2", "-5", "there are 2"]),
-            case("sh forward endless.sp", 1, &["endless.sp:2", "there are 2"]),
+            case("sh forward negative.sp", 1, &["negative.sp:2", "-5", "the file has 2"]),
+            case("sh forward endless.sp", 1, &["endless.sp:2", "the file has 2"]),
             case("sh forward lying.ti3", 1, &["lying.ti3:2", "4000000000", "1 row"]),
             case("sh forward tiny.sp", 1, &["is too large"]),
             case("sh forward nan.sp", 1, &["nan.sp:7", "SPEC_700", "'nan'"]),

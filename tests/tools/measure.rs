@@ -122,7 +122,7 @@ fn several_photographs_have_one_page() {
     );
     assert_eq!(run.status, 3, "{run:?}");
     assert!(run.stderr.contains("vfold-measure: 4 of 4, c.exr\n"), "{run:?}");
-    assert!(run.stdout.ends_with("vfold-report.html: 3 of 4 photographs\n"), "{run:?}");
+    assert!(run.stdout.ends_with("vfold-report.html: 3 of 4 photographs measured\n"), "{run:?}");
     assert_eq!(folder.sh("ls vfold-report.html vfold-*/report.html | wc -l").stdout.trim(), "4");
     let page = folder.sh("cat vfold-report.html").stdout;
     let page = page.strip_prefix("<!DOCTYPE html>\n").unwrap();
