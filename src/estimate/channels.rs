@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use crate::camera::CameraResponse;
-use crate::solve::dense::{add_product, add_rows, dot_products, product};
+use crate::solve::dense::{add_product, dot_products, product, product_with_transposed};
 
 /// Light of a source on the surface.
 #[derive(Clone)]
@@ -81,11 +81,14 @@ impl Channels {
     pub fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
         let mut columns = DMatrix::zeros(self.len(), terms.nrows() + more);
         for (Lit { compressed, weights }, amount) in self.sources.iter().zip(amounts) {
+            // datum by datum, as there are fewer data than wavebands
+            let seen = product_with_transposed(terms, compressed);
             for (rows, weights) in self.rows.iter().zip(weights.column_iter()) {
-                let weights = *amount * weights;
-                let mut weighted = terms.clone();
-                weighted.column_iter_mut().for_each(|mut term| term.component_mul_assign(&weights));
-                add_rows(&mut columns, rows.clone(), (compressed, &weighted), 0..terms.ncols());
+                for datum in rows.clone() {
+                    for (band, (weight, seen)) in weights.iter().zip(&seen.column(datum)).enumerate() {
+                        columns[(datum, band)] += amount * weight * seen;
+                    }
+                }
             }
         }
         columns
