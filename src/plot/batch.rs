@@ -61,7 +61,10 @@ impl Batch {
     fn worst<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
         let top = self.below_histograms();
         let Some((score, ..)) = self.scores.first() else { return Ok(()) };
-        let title = format!("the worst {} by {score}", self.worst.len());
+        let title = match self.worst.len() {
+            1 => format!("the worst by {score}"),
+            several => format!("the worst {several} by {score}"),
+        };
         say(area, &title, (MARGIN, top + TITLE / 2), &style(SIZE, HPos::Left, BLACK))?;
         let most = self.worst.iter().map(|(_, value)| value.abs()).fold(f64::MIN_POSITIVE, f64::max);
         for (n, (name, value)) in self.worst.iter().enumerate() {

@@ -52,6 +52,7 @@ vestimate sample.ndjson 2>/dev/null | python3 -c "
 import json, sys
 exposure = json.loads(sys.stdin.readlines()[1])['estimate']['exposure']
 print('estimated exposure', 'right' if abs(exposure / 0.5 - 1) < 0.03 else exposure)"
+vestimate --fit exposure sample.ndjson 2>&1 >/dev/null | grep 'white region'
 
 echo what is refused
 oiiotool sheet.exr --resize 320x240 -o small.exr

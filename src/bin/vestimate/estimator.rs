@@ -180,6 +180,9 @@ impl Transform for Estimator<'_> {
                 let data = inference.data(measured, exposure, is_photograph)?;
                 let photograph = || photographed(fold, sample, (measured, shadows), exposure);
                 let photograph = is_photograph.then(photograph).transpose()?;
+                if !photograph.as_ref().is_some_and(|one| matches!(one.parts, Some(Ok(_)))) {
+                    self.say_paper_unused(sample)?;
+                }
                 let facets = Facets { measured, exposure, photograph: photograph.as_ref() };
                 let Measurement { estimate, verdict, unmodelled, .. } = inference.measure(&facets, &data)?;
                 unmodelled.iter().for_each(|why| self.say_unmodelled(sample, &estimate, *why));
@@ -188,10 +191,12 @@ impl Transform for Estimator<'_> {
                 (estimate, Some(verdict), how)
             }
             SceneMethod::Smooth(smoothness) => {
+                self.say_paper_unused(sample)?;
                 let (estimate, how) = self.smooth(context, &rgb, &noise, exposure, *smoothness)?;
                 (estimate, None, how)
             }
             SceneMethod::Flat(flat) => {
+                self.say_paper_unused(sample)?;
                 let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
                 let sheet = FlatSheet::new(context.model.facets(), &measured, exposure)?;
                 (flat.estimate(&sheet)?, None, flat.to_string())
@@ -374,6 +379,17 @@ impl<'a> Estimator<'a> {
             );
             cli::say("vestimate", &text);
         }
+    }
+
+    /// Warns that white paper in a photograph does not give the exposure of a sheet that is treated as ideal:
+    /// how white it is has an error, which only the model of real sheets takes into account.
+    fn say_paper_unused(&self, sample: &Sample) -> Result<()> {
+        if !self.asked.args.common.quiet && sample.white_paper()?.is_some() {
+            let text = "the white region, taken for paper, does not give the exposure here: only photographs \
+                        of folds use it, and only with --fit auto; give vextract its --white-reflectance";
+            cli::say("vestimate", &format!("{}: {text}", sample.id()));
+        }
+        Ok(())
     }
 
     /// The paper's objective, which weights all facets equally, white being 1; and a description of it.

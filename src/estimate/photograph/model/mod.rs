@@ -1,0 +1,281 @@
+//! The facets of a photograph as a model of standard normal numbers: those of the spectrum of the sheet's
+//! albedo, the unknowns of the scene, the variations of a sheet model, and the errors of the camera's
+//! sensitivities.
+
+mod derivatives;
+mod emission;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::chebyshev::{chebyshev, nodes};
+use super::conditions::{Conditions, StatedScene};
+use super::corners;
+use super::day::Day;
+use super::error::Whitening;
+use super::hypotheses::Hypothesis;
+use super::lighting::Lighting;
+use super::number::Number;
+use super::parts::{Parts, Radiance};
+use super::prediction::{Predicted, Predictor, Terms};
+use super::sheet_models::{SheetModel, SheetModels};
+use super::sheets::Departure;
+use crate::estimate::emission::{Emission, Fall};
+use crate::estimate::gaussian::{Gaussian, logistic};
+use crate::estimate::smooth_errors::smooth_errors;
+
+/// The model under one hypothesis and one Gaussian of albedos.
+pub struct PhotographModel<'a> {
+    parts: &'a Parts,
+    sheet_models: &'a SheetModels<'a>,
+    hypothesis: Hypothesis,
+    /// The emission of the sheet; `None` without any.
+    emission: Option<&'a Emission>,
+    gaussian: &'a Gaussian,
+    whitening: &'a Whitening,
+    /// The stated properties of the photograph that are used.
+    stated: StatedScene,
+    numbers: Vec<Number>,
+    /// Maps values at the nodes to Chebyshev coefficients.
+    coefficients: DMatrix<f64>,
+    /// Errors of the camera's sensitivities: waveband by error.
+    curve_errors: DMatrix<f64>,
+}
+
+/// A point of the model in its own units.
+pub struct Point {
+    /// Albedo of the sheet per waveband: reflectance for light from all directions into all directions.
+    pub albedo: Vec<f64>,
+    /// Conditions.
+    pub conditions: Conditions,
+    /// The sheet's departure from a Lambertian one.
+    pub departure: Departure,
+    /// Exposure: value of a perfect white diffuser facing the sun, in the sun alone.
+    pub exposure: f64,
+}
+
+impl<'a> PhotographModel<'a> {
+    /// The model; `whitening` makes the residuals of all values, ordered by channel and then facet, standard
+    /// normal.
+    #[must_use]
+    pub fn new(
+        parts: &'a Parts,
+        sheet_models: &'a SheetModels,
+        (hypothesis, emission): (Hypothesis, Option<&'a Emission>),
+        gaussian: &'a Gaussian,
+        whitening: &'a Whitening,
+    ) -> Self {
+        let count = parts.sun.even.ncols();
+        let chebyshev = chebyshev(&nodes(count), count).0;
+        let coefficients = chebyshev.try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
+        let stated = hypothesis.stated(&parts.stated);
+        Self {
+            parts,
+            sheet_models,
+            hypothesis,
+            emission: emission.filter(|emission| emission.unknowns() > 0),
+            gaussian,
+            whitening,
+            stated,
+            numbers: Number::all(&stated, hypothesis),
+            coefficients,
+            curve_errors: curve_errors(parts),
+        }
+    }
+
+    /// The unknowns of the scene.
+    #[must_use]
+    pub fn scene_unknowns(&self) -> &[Number] {
+        &self.numbers
+    }
+
+    /// First indices of the unknowns of the scene, the variations of the sheet, the errors of the camera and
+    /// the emission, and the total number of unknowns.
+    #[must_use]
+    pub fn layout(&self) -> [usize; 5] {
+        let scene = self.gaussian.basis().ncols();
+        let sheet = scene + self.numbers.len();
+        let camera = sheet + self.sheet_models.variation_count();
+        let emission = camera + self.parts.eye.errors.len();
+        [scene, sheet, camera, emission, emission + self.emission.map_or(0, Emission::unknowns)]
+    }
+
+    /// Conditions at `w`.
+    fn conditions(&self, w: &DVector<f64>) -> Conditions {
+        let (stated, is_ideal) = (&self.stated, self.hypothesis.imperfection.is_ideal());
+        let stated_sky = stated.sky_kind.filter(|_| is_ideal);
+        let mut conditions = Conditions {
+            exposure: stated.exposure.unwrap_or(1.0),
+            gains: [1.0; 2],
+            angle_deg: stated.angle_deg,
+            tilt_deg: stated.tilt_deg,
+            sun_mired: None,
+            day: stated.day,
+            sun: if is_ideal { stated.sun } else { 1.0 },
+            sky: match stated.day.has_sun() {
+                true if is_ideal => stated.sky_above_horizon(),
+                true => 0.0,
+                false => 1.0,
+            },
+            cloud: if stated_sky.map_or(stated.day == Day::Overcast, |sky| sky.is_overcast) {
+                1.0
+            } else {
+                0.0
+            },
+            elevation_deg: stated_sky.map_or(stated.priors.elevation_deg, |sky| sky.elevation_deg),
+            even_sky: if is_ideal { stated.even_sky() } else { 0.0 },
+            sky_mired: None,
+            ground: 0.0,
+            ground_redness: 0.0,
+            crease_radius: 0.0,
+            bow_deg: 0.0,
+            bow_difference_deg: 0.0,
+            nearness: 0.0,
+            fall_off: 0.0,
+            vignetting: 0.0,
+            veiling_glare: 0.0,
+            specular_weight: 0.0,
+            specular_roughness: 0.42,
+            body_roughness_deg: 0.0,
+            sheen: 0.0,
+        };
+        let [first, ..] = self.layout();
+        for (n, number) in self.numbers.iter().enumerate().filter(|(_, number)| number.matters()) {
+            (number.effect.set)(&mut conditions, number.at(w[first + n]).0);
+        }
+        conditions
+    }
+
+    fn reflected_terms(&self, albedo: &[f64]) -> Terms {
+        let count = self.coefficients.nrows();
+        if self.hypothesis.has_bounces() {
+            let (values, slopes) = chebyshev(albedo, count);
+            return Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes };
+        }
+        // in a dark sheet light bounces once. A Lambertian sheet's radiance per unit of albedo is smoother
+        // than the radiance itself and stays finite; specular reflection does not vanish with albedo, and
+        // only the slope is determined
+        let (values, slopes) = chebyshev(&[0.0], count);
+        let once = if self.hypothesis.imperfection.is_ideal() {
+            (&self.coefficients * values).component_div(&DMatrix::from_column_slice(count, 1, &nodes(count)))
+        } else {
+            &self.coefficients * slopes
+        };
+        Terms {
+            values: &once * DMatrix::from_row_slice(1, albedo.len(), albedo),
+            slopes: once * DMatrix::from_element(1, albedo.len(), 1.0),
+        }
+    }
+
+    /// Logits of albedo.
+    fn logit(&self, w: &DVector<f64>) -> DVector<f64> {
+        let mut logit = self.gaussian.logit_at(&w.rows(0, self.gaussian.basis().ncols()).into_owned());
+        if let Some(Fall { amount, falling, .. }) = self.fall(w) {
+            logit.axpy(amount, falling, 1.0);
+        }
+        logit
+    }
+
+    /// The point at `w` in its own units.
+    #[must_use]
+    pub fn point(&self, w: &DVector<f64>) -> Point {
+        let conditions = self.conditions(w);
+        let [_, sheet, camera, ..] = self.layout();
+        let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
+        Point {
+            albedo: self.logit(w).iter().map(|z| logistic(*z)).collect(),
+            departure: self.departure(&conditions, &variations),
+            exposure: Lighting::new(self.parts, &conditions).exposure(self.parts, &conditions),
+            conditions,
+        }
+    }
+
+    fn departure(&self, conditions: &Conditions, variations: &[f64]) -> Departure {
+        let Hypothesis { kind, imperfection, .. } = self.hypothesis;
+        self.sheet_models.departure(kind, imperfection.scale, conditions, variations)
+    }
+
+    /// Radiance of the facets minus that of a Lambertian sheet.
+    fn beyond(&self, w: &DVector<f64>) -> Radiance {
+        let [_, sheet, camera, ..] = self.layout();
+        let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
+        self.departure(&self.conditions(w), &variations).radiance
+    }
+
+    /// The camera's sensitivities with their errors at `w`: waveband by channel.
+    fn sensitivities(&self, w: &DVector<f64>) -> DMatrix<f64> {
+        let Parts { eye, .. } = self.parts;
+        let [_, _, camera, emission, _] = self.layout();
+        let mut sensitivities = eye.sensitivities.clone();
+        for ((channel, error), size) in eye.errors.iter().zip(&w.as_slice()[camera..emission]) {
+            let curve = &mut sensitivities.as_mut_slice()[channel * error.len()..];
+            curve
+                .iter_mut()
+                .zip(error.as_slice())
+                .for_each(|(value, error)| *value += self.hypothesis.imperfection.scale * size * error);
+        }
+        sensitivities
+    }
+
+    /// The facets at `w`.
+    fn predicted(&self, w: &DVector<f64>) -> Predicted<'a> {
+        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
+        let (terms, sensitivities) = (self.terms(w, &albedo), self.sensitivities(w));
+        let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
+        predictor.facets(&self.conditions(w), &self.beyond(w))
+    }
+
+    /// Errors of an instrument's reflectance that the facets do not determine: error by waveband; `None` if
+    /// there are none.
+    #[must_use]
+    pub fn instrument_errors(&self, albedo: &[f64]) -> Option<DMatrix<f64>> {
+        let own = match self.hypothesis.kind {
+            SheetModel::Measured => self.hypothesis.imperfection.scale * self.parts.sheets.instrument.own,
+            SheetModel::Matt | SheetModel::Family => return None,
+        };
+        let sd: Vec<f64> = albedo.iter().map(|albedo| own * albedo).collect();
+        smooth_errors(&self.parts.eye.wavelengths_nm, &sd)
+    }
+
+    /// Effects on the residuals of a small shift of each corner.
+    #[must_use]
+    pub fn shifts(&self) -> Vec<DVector<f64>> {
+        let shifts = corners::shifts(&self.parts.places, &self.parts.values);
+        shifts.iter().map(|shift| self.whitening.of(shift)).collect()
+    }
+
+    /// The whitening of its residuals.
+    #[must_use]
+    pub fn whitening(&self) -> &Whitening {
+        self.whitening
+    }
+
+    /// The Gaussian of logits of albedo.
+    #[must_use]
+    pub fn gaussian(&self) -> &Gaussian {
+        self.gaussian
+    }
+
+    /// The values at `w`: facet by channel.
+    #[must_use]
+    pub fn values_at(&self, w: &DVector<f64>) -> DMatrix<f64> {
+        self.predicted(w).values
+    }
+
+    /// The measured values: facet by channel.
+    #[must_use]
+    pub fn values(&self) -> &DMatrix<f64> {
+        &self.parts.values
+    }
+
+    /// Residuals before whitening: facet by channel.
+    #[must_use]
+    pub fn left_over(&self, w: &DVector<f64>) -> DMatrix<f64> {
+        &self.parts.values - self.predicted(w).values
+    }
+}
+
+/// Errors of the camera's sensitivities, side by side.
+fn curve_errors(Parts { eye, .. }: &Parts) -> DMatrix<f64> {
+    let errors = eye.errors.iter().flat_map(|(_, error)| error.iter().copied());
+    DMatrix::from_iterator(eye.wavelengths_nm.len(), eye.errors.len(), errors)
+}
