@@ -43,8 +43,8 @@ fn together(paths: &[PathBuf]) -> Outcome {
 ///
 /// What more photographs promise is smaller error bars, so these must shrink, and still hold: in the long run
 /// 95 % of the wavelengths of such bars are within two of them, of a single sheet, whose errors are alike at
-/// neighbouring wavelengths, fewer. The error itself is one draw, which may be larger than the mean of those
-/// alone: its bound only refuses joins that do harm.
+/// neighbouring wavelengths, fewer. The error itself is one draw, which may be a little larger than the mean
+/// of those alone.
 #[test]
 fn error_bars_of_photographs_together_are_smaller_and_hold() {
     let paths = ["all_green_paint", "pairs/green_paint_72", "pairs/green_paint_side"]
@@ -65,7 +65,7 @@ fn error_bars_of_photographs_together_are_smaller_and_hold() {
     print_table(&all);
     let alone = |of: fn(&Outcome) -> f64| all[..3].iter().map(of).sum::<f64>() / 3.0;
     for joint in &all[3..] {
-        assert!(joint.rmse < 1.6 * alone(|one| one.rmse), "{}", joint.rmse);
+        assert!(joint.rmse < 1.1 * alone(|one| one.rmse), "{}", joint.rmse);
         assert!(joint.within_two_sd > 0.85 && joint.bar < alone(|one| one.bar));
     }
 }

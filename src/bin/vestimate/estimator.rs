@@ -180,7 +180,8 @@ impl Transform for Estimator<'_> {
                 let data = inference.data(measured, exposure, is_photograph)?;
                 let photograph = || photographed(fold, sample, (measured, shadows), exposure);
                 let photograph = is_photograph.then(photograph).transpose()?;
-                if !photograph.as_ref().is_some_and(|one| matches!(one.parts, Some(Ok(_)))) {
+                let is_modelled = photograph.as_ref().is_some_and(|one| matches!(one.parts, Some(Ok(_))));
+                if !(is_modelled && self.is_auto()) {
                     self.say_paper_unused(sample)?;
                 }
                 let facets = Facets { measured, exposure, photograph: photograph.as_ref() };
