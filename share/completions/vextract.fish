@@ -194,7 +194,7 @@ complete -c vextract -l white-reflectance -d 'Reflectance of the white card; wit
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vextract -l find -d 'Print where the fold and the chart are in each photograph, one line of JSON as --regions reads it, and exit; needs no scene'
+complete -c vextract -l find -d 'Print where the fold, the chart and what may be white are in each photograph, one line of JSON as --regions reads it, and exit; needs no scene'
 complete -c vextract -l pick -d 'Show the photograph and the detected fold in a browser on this machine, to be corrected there, then print the corners as --find does'
 complete -c vextract -l exact-corners -d 'Use the corners as marked, without moving them to the edges'
 complete -c vextract -s q -l quiet -d 'Print nothing but errors'

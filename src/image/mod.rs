@@ -35,7 +35,7 @@ pub use drawing::{
 };
 pub use edges::{Marked, REFINED_WITHIN_PX, Refinement, refine};
 pub use finding::{
-    DetectedChart, DetectedFold, NoFold, WeighedFold, find_chart, find_fold, find_fold_and_chart,
+    DetectedChart, DetectedFold, Detections, NoFold, WeighedFold, find_all, find_chart, find_fold,
     find_fold_around, weighed_chart, weighed_folds,
 };
 pub use measuring::{

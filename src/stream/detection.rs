@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::named::Named;
 use crate::error::{Error, Result};
-use crate::image::{DetectedChart, DetectedFold, FoldAngle, NoFold, Photograph, Point};
+use crate::image::{Detections, FoldAngle, Photograph, Point};
 
 /// A fold and a chart in the form of a regions file; or the reason why there is no fold.
 #[derive(Serialize)]
@@ -19,6 +19,9 @@ struct DetectionRecord {
     fold: FoldRecord,
     #[serde(flatten)]
     chart: Option<ChartRecord>,
+    /// Areas that may be white paper or a card.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    white_candidates: Vec<[[f64; 2]; 4]>,
 }
 
 /// The angle derived from the corners.
@@ -79,18 +82,17 @@ const PARTS_OF_DEGREE: f64 = 1e2;
 const PARTS_OF_DEPTH: f64 = 1e3;
 
 /// A line, readable by `--regions`, with the position and angle of a fold, or the reason for its absence, and
-/// the position of a chart.
+/// the positions of a chart and of what may be white.
 ///
 /// # Errors
 /// [`Error::Field`] if it has no form in JSON.
 pub fn detection_line(
     image: &Path,
     photograph: &Photograph,
-    fold: &std::result::Result<DetectedFold, NoFold>,
+    found: &Detections,
     angle: Option<&FoldAngle>,
-    chart: Option<&DetectedChart>,
 ) -> Result<String> {
-    let fold = match fold {
+    let fold = match &found.fold {
         Ok(found) => {
             let panel = |(number, panel)| (format!("panel{number}"), corners(panel));
             FoldRecord::Detected {
@@ -101,13 +103,15 @@ pub fn detection_line(
         }
         Err(none) => missing(none.to_string()),
     };
-    let chart = chart.map(|chart| ChartRecord {
+    let chart = found.chart.as_ref().map(|chart| ChartRecord {
         chart: corners(chart.corners),
         chart_confidence: rounded(chart.confidence, PARTS_OF_CONFIDENCE),
     });
-    let has_corners = matches!(fold, FoldRecord::Detected { .. }) || chart.is_some();
+    let white_candidates: Vec<_> = found.white_candidates.iter().copied().map(corners).collect();
+    let has_corners =
+        matches!(fold, FoldRecord::Detected { .. }) || chart.is_some() || !white_candidates.is_empty();
     let size = has_corners.then(|| Size { width: photograph.width(), height: photograph.height() });
-    line(&DetectionRecord { image: name(image), size, fold, chart })
+    line(&DetectionRecord { image: name(image), size, fold, chart, white_candidates })
 }
 
 /// A line that states why nothing is found in an unreadable photograph.
@@ -115,7 +119,13 @@ pub fn detection_line(
 /// # Errors
 /// [`Error::Field`] if it has no form in JSON.
 pub fn no_detection_line(image: &Path, reason: &str) -> Result<String> {
-    line(&DetectionRecord { image: name(image), size: None, fold: missing(reason.to_owned()), chart: None })
+    line(&DetectionRecord {
+        image: name(image),
+        size: None,
+        fold: missing(reason.to_owned()),
+        chart: None,
+        white_candidates: Vec::new(),
+    })
 }
 
 fn missing(reason: String) -> FoldRecord {

@@ -15,6 +15,8 @@
 //!   requires it; in a single object it is a remark.
 //! - `confidence`: for corners from `vextract --find`, the probability that they are right.
 //! - `chart_confidence`: the same for a chart; such a chart is used where possible.
+//! - `white_candidates`: areas that may be white paper or a card, by `vextract --find`; not used before one
+//!   is copied to `white`.
 //! - `angle_deg`, `angle_sd_deg`: the angle of the fold and its standard deviation, degrees, as derived from
 //!   the corners by `vextract --find`; `panel`: width of its panels along the crease and their depth, in any
 //!   unit, if they are not square. `vkernel` reads these.
@@ -36,9 +38,10 @@ use crate::error::{Error, Result};
 use crate::image::{Homography, Point};
 
 /// Fields other than those of the panels.
-const FIELDS: [&str; 12] = [
+const FIELDS: [&str; 13] = [
     "chart",
     "white",
+    "white_candidates",
     "image",
     "width",
     "height",

@@ -85,7 +85,8 @@ fn a_person_puts_right_what_was_found() {
     let truth = json!({"width": 640, "height": 480, "panel0": panel(0), "panel1": panel(1)});
     let run = folder.sh(&format!(
         "echo '{truth}' > corners.json
-        cp {ROOT}/tests/data/photos/a_ideal_magenta_50.exr photo.exr
+        white=topleft=0.75,0.75,0.75:topright=0.8,0.8,0.8:bottomleft=0.78,0.78,0.78:bottomright=0.8,0.8,0.8
+        oiiotool {ROOT}/tests/data/photos/a_ideal_magenta_50.exr --fill:$white 80x80+530+370 -o photo.exr
         : > said
         vextract --pick photo.exr > picked.json 2>> said &
         until grep -q http said; do sleep 0.1; done
@@ -106,10 +107,15 @@ fn a_person_puts_right_what_was_found() {
         at(&said["dragged"]) - at(found)
     };
     assert!(moved(0) > 5.0 && moved(1) > 5.0, "{said}");
+    assert_eq!((&said["found"]["white"], &said["hidden"]), (&Value::Null, &json!(true)));
+    let card = |of: &Value| {
+        (530.0..610.0).contains(&of[0].as_f64()?).then_some((370.0..450.0).contains(&of[1].as_f64()?))
+    };
+    assert!(said["white"].as_array().unwrap().iter().all(|corner| card(corner) == Some(true)), "{said}");
     let picked: Value = serde_json::from_str(&folder.sh("cat picked.json").stdout).unwrap();
     assert_eq!(picked, *again);
     assert_eq!(picked["image"], "photo.exr");
-    let run = folder.sh("vkernel --angle-deg 50 | vextract photo.exr --regions picked.json \
+    let run = folder.sh("vkernel --angle-deg 50 | vextract -q photo.exr --regions picked.json \
         --camera canon-5d-mark-ii --illuminant D65");
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
 }

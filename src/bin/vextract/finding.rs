@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use vfold::cli;
 use vfold::image::{
-    CornersBy, DetectedChart, DetectedFold, FoldSeen, Grid, Homography, Lens, NoFold, OtherFold, Photograph,
-    find_fold, find_fold_and_chart,
+    CornersBy, DetectedChart, DetectedFold, Detections, FoldSeen, Grid, Homography, Lens, OtherFold,
+    Photograph, Point, find_all, find_fold,
 };
 use vfold::scene::stated_fold;
 use vfold::stream::{Output, Regions, Scene, detection_line, no_detection_line};
@@ -14,7 +14,8 @@ use vfold::{Error, Result};
 
 use super::{Args, balance, reading::Reading};
 
-/// Prints the positions of fold and chart in each photograph, and draws them if `--overlay` is present.
+/// Prints the positions of fold, chart and white areas in each photograph, and draws them if `--overlay` is
+/// present.
 ///
 /// # Errors
 /// As [`Reading::open`] for a single photograph; with several, an unreadable one is reported in its line.
@@ -29,14 +30,19 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
             opened => opened?,
         };
         let lens = args.placing.lens(&photograph)?;
-        let (fold, chart) = find_fold_and_chart(&photograph, &lens);
-        let chart = chart.filter(DetectedChart::is_sure);
-        if fold.is_ok() || chart.is_some() {
-            draw(args, path, &photograph, (fold.as_ref().ok(), chart.as_ref()), lens)?;
+        let found = sure_chart(find_all(&photograph, &lens));
+        if found.fold.is_ok() || found.chart.is_some() || !found.white_candidates.is_empty() {
+            let Detections { fold, chart, white_candidates } = &found;
+            draw(args, path, &photograph, (fold.as_ref().ok(), chart.as_ref(), white_candidates), lens)?;
         }
-        out.text(&line(args, path, &photograph, lens, (&fold, chart.as_ref()))?)?;
+        out.text(&line(args, path, &photograph, lens, &found)?)?;
     }
     Ok(())
+}
+
+/// The same without a chart of which it is not sure.
+pub fn sure_chart(found: Detections) -> Detections {
+    Detections { chart: found.chart.filter(DetectedChart::is_sure), ..found }
 }
 
 /// The line for a photograph with these detections.
@@ -48,10 +54,10 @@ pub fn line(
     path: &Path,
     photograph: &Photograph,
     lens: Lens,
-    (fold, chart): (&std::result::Result<DetectedFold, NoFold>, Option<&DetectedChart>),
+    found: &Detections,
 ) -> Result<String> {
-    let angle = fold.as_ref().ok().and_then(|found| seen(args, photograph, lens).angle(&found.panels));
-    detection_line(path, photograph, fold, angle.as_ref(), chart)
+    let angle = found.fold.as_ref().ok().and_then(|fold| seen(args, photograph, lens).angle(&fold.panels));
+    detection_line(path, photograph, found, angle.as_ref())
 }
 
 /// Data on a fold's angle in a photograph other than its corners.
@@ -78,13 +84,14 @@ pub fn find(
     regions: &mut Regions,
 ) -> Result<f64> {
     let (fold, chart) = if regions.chart.is_none() && regions.white.is_none() {
-        find_fold_and_chart(photograph, &lens)
+        let Detections { fold, chart, .. } = find_all(photograph, &lens);
+        (fold, chart)
     } else {
         (find_fold(photograph, &lens), None)
     };
     let found = fold.map_err(|none| not_found(path, &none))?;
     if !found.is_sure() {
-        draw(args, path, photograph, (Some(&found), None), lens)?;
+        draw(args, path, photograph, (Some(&found), None, &[]), lens)?;
         return Err(unsure(path, found.confidence));
     }
     if !args.common.quiet {
@@ -132,12 +139,12 @@ pub fn unsure(path: &Path, confidence: f64) -> Error {
     Error::picture(path, problem, format!("look at them with --find --overlay FILE.png, then {REMEDY}"))
 }
 
-/// Draws fold and chart over their photograph, if requested.
+/// Draws fold, chart and white areas over their photograph, if requested.
 fn draw(
     args: &Args,
     path: &Path,
     photograph: &Photograph,
-    (fold, chart): (Option<&DetectedFold>, Option<&DetectedChart>),
+    (fold, chart, white): (Option<&DetectedFold>, Option<&DetectedChart>, &[[Point; 4]]),
     lens: Lens,
 ) -> Result<()> {
     let panel = |(number, corners)| {
@@ -148,6 +155,7 @@ fn draw(
     let patches = |chart: &DetectedChart| {
         Ok(Grid::even(Homography::through(lens, chart.corners)?, DetectedChart::GRID))
     };
-    let grids = panels.chain(chart.map(patches)).collect::<Result<Vec<_>>>()?;
+    let area = |corners: &[Point; 4]| Ok(Grid::even(Homography::through(lens, *corners)?, [1, 1]));
+    let grids = panels.chain(chart.map(patches)).chain(white.iter().map(area)).collect::<Result<Vec<_>>>()?;
     args.pictures.overlay(path, photograph, &grids, &[], &balance::of_photograph(args, photograph))
 }

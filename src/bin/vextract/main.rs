@@ -48,7 +48,8 @@ Examples:
 Without corners the fold is detected. Where detection is uncertain, vextract says what to do
 instead of measuring. A colour chart of 4 x 6 patches, if detected with certainty and facing the
 sun, calibrates the photograph. --find prints the corners of both, with the probability that all
-of them are right:
+of them are right, and areas that may be white paper or a card (white_candidates): copy one that
+is to white:
   vextract --find photo.tif > found.json
   vkernel --angle-deg 50 | vextract photo.tif --regions found.json --camera nikon-d5100
 
@@ -95,8 +96,8 @@ struct Args {
     camera: Option<String>,
     #[command(flatten)]
     optics: OpticsArgs,
-    /// Print where the fold and the chart are in each photograph, one line of JSON as --regions reads it,
-    /// and exit; needs no scene
+    /// Print where the fold, the chart and what may be white are in each photograph, one line of JSON as
+    /// --regions reads it, and exit; needs no scene
     #[arg(long,
         conflicts_with_all = ["regions", "panel0", "panel1", "panel", "chart", "white_region", "preview"])]
     find: bool,

@@ -6,9 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use vfold::cli::{self, Reply, ServedFile};
-use vfold::image::{
-    DetectedChart, Photograph, Point, find_fold_and_chart, find_fold_around, parse_point, write_preview,
-};
+use vfold::image::{Detections, Photograph, Point, find_all, find_fold_around, parse_point, write_preview};
 use vfold::stream::{Output, picked_line};
 use vfold::{Error, Result};
 
@@ -33,13 +31,13 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
     };
     let photograph = reading.open(path)?;
     let lens = args.placing.lens(&photograph)?;
-    let (fold, chart) = find_fold_and_chart(&photograph, &lens);
-    let chart = chart.filter(DetectedChart::is_sure);
-    let found = finding::line(args, path, &photograph, lens, (&fold, chart.as_ref()))?;
-    // the chart remains as the person marked it
+    let found = finding::sure_chart(find_all(&photograph, &lens));
+    let found = finding::line(args, path, &photograph, lens, &found)?;
+    // everything else remains as the person marked it
     let around = |clicks| {
         let fold = find_fold_around(&photograph, &lens, clicks);
-        finding::line(args, path, &photograph, lens, (&fold, None))
+        let found = Detections { fold, chart: None, white_candidates: Vec::new() };
+        finding::line(args, path, &photograph, lens, &found)
     };
     let files = [
         ServedFile { name: "", media_type: "text/html; charset=utf-8", bytes: PAGE.into() },

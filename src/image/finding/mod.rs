@@ -14,7 +14,7 @@
 //! 5. [`candidates`], [`trust`]: the best ones refined, and the probability that all corners are right.
 //!
 //! The fold that is most probably right is then refined at full resolution. [`chart`] finds colour charts by
-//! other means.
+//! other means, [`white`] what may be white paper or a card.
 
 mod candidates;
 mod chains;
@@ -36,6 +36,7 @@ mod synthetic;
 mod tree;
 mod trust;
 mod weights;
+mod white;
 
 use super::edges::{MOST_OF_PIECE, refine_in_sight};
 use super::photograph::Photograph;
@@ -45,6 +46,7 @@ pub use chart::{DetectedChart, find_chart, weighed_chart};
 use outline::{Outline, Place};
 use reduced::Reduced;
 use trust::confidence;
+use white::white_areas;
 
 /// A fold in a photograph.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,27 +124,41 @@ pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<DetectedFold, N
     most_probable(photograph, &Reduced::of(photograph), lens, LEAST_CONFIDENCE, |_| true)
 }
 
-/// The fold and the colour chart of a photograph, in less time than one after the other.
-///
-/// # Returns
-/// As [`find_fold`] and [`find_chart`].
+/// All that is looked for in a photograph.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Detections {
+    /// As [`find_fold`] returns it.
+    pub fold: Result<DetectedFold, NoFold>,
+    /// As [`find_chart`] returns it.
+    pub chart: Option<DetectedChart>,
+    /// Corners of even bright areas elsewhere that may be white paper or a card, px of the upright picture,
+    /// the whitest first: none is known to be white.
+    pub white_candidates: Vec<[Point; 4]>,
+}
+
+/// Fold, colour chart and white areas of a photograph, in less time than one after the other.
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Lens, NoFold, Photograph, find_fold_and_chart};
-/// let empty = Photograph::from_light(240, 200, vec![0.1; 240 * 200])?;
-/// assert_eq!(find_fold_and_chart(&empty, &Lens::STRAIGHT), (Err(NoFold::Nothing), None));
+/// use vfold::image::{Lens, NoFold, Photograph, find_all};
+/// let card = |x: usize, y: usize| (60..120).contains(&x) && (40..100).contains(&y);
+/// let light = (0..240 * 200).map(|k| if card(k % 240, k / 240) { 0.8 } else { 0.1 }).collect();
+/// let found = find_all(&Photograph::from_light(240, 200, light)?, &Lens::STRAIGHT);
+/// assert!(found.fold == Err(NoFold::Nothing) && found.chart.is_none());
+/// assert!(found.white_candidates[0].iter().all(|corner| card(corner.x as usize, corner.y as usize)));
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn find_fold_and_chart(
-    photograph: &Photograph,
-    lens: &Lens,
-) -> (Result<DetectedFold, NoFold>, Option<DetectedChart>) {
+#[must_use]
+pub fn find_all(photograph: &Photograph, lens: &Lens) -> Detections {
     let reduced = Reduced::of(photograph);
-    rayon::join(
+    let (fold, chart) = rayon::join(
         || most_probable(photograph, &reduced, lens, LEAST_CONFIDENCE, |_| true),
         || chart::most_alike(photograph, &reduced, lens).map(|(chart, _)| chart),
-    )
+    );
+    let panels = fold.as_ref().ok().map(|found| &found.panels);
+    let of_chart = chart.as_ref().filter(|chart| chart.is_sure()).map(|chart| &chart.corners);
+    let white_candidates = white_areas(photograph, &reduced, (panels, of_chart));
+    Detections { fold, chart, white_candidates }
 }
 
 /// The fold with two stated places, px, on its two panels, in either order; returned at any confidence,

@@ -45,7 +45,7 @@ pub(super) fn area(quad: &Quad) -> f64 {
 }
 
 /// Whether a place is inside a convex quadrilateral of either orientation.
-fn is_inside(quad: &Quad, place: Place) -> bool {
+pub(super) fn is_inside(quad: &Quad, place: Place) -> bool {
     let side = |k: usize| cross(quad[(k + 1) % 4] - quad[k], place - quad[k]);
     let sides = [0, 1, 2, 3].map(side);
     sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0)

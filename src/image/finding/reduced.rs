@@ -26,6 +26,8 @@ pub(super) struct Reduced {
     pub scale: usize,
     /// Light row by row, each channel relative to its brightest pixels.
     pub light: Vec<[f32; 3]>,
+    /// Light that counts as 1 in each channel, relative to the photograph's white level.
+    pub one: [f32; 3],
 }
 
 impl Reduced {
@@ -40,7 +42,7 @@ impl Reduced {
         });
         let one = [0, 1, 2].map(|channel| one(&light, channel));
         light.par_iter_mut().for_each(|light| *light = [0, 1, 2].map(|k| light[k] / one[k]));
-        Self { width, height, scale, light }
+        Self { width, height, scale, light, one }
     }
 
     /// A picture of half the size: means over two by two pixels.
@@ -55,7 +57,7 @@ impl Reduced {
             [0, 1, 2].map(|n| four.iter().map(|light| light[n]).sum::<f32>() / 4.0)
         };
         let light = (0..width * height).into_par_iter().map(pixel).collect();
-        Self { width, height, scale: 2 * self.scale, light }
+        Self { width, height, scale: 2 * self.scale, light, one: self.one }
     }
 
     /// The reduced picture as a photograph.

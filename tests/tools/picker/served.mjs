@@ -1,4 +1,5 @@
-// What a person does on the page of vextract --pick: looks at the fold that was found, moves a corner, has the fold found anew, and is done.
+// What a person does on the page of vextract --pick: looks at the fold that was found, moves a corner, takes the white card that is
+// offered, has the fold found anew, and is done.
 //   node served.mjs ADDRESS SCREENSHOT.png CORNERS.json
 // CORNERS.json: {"width", "height" of the photograph, "panel0", "panel1"}: four [x, y] each. Prints the page's words and regions after each step.
 import { readFileSync } from "node:fs";
@@ -42,6 +43,12 @@ try {
   await page.mouse.up();
   const dragged = await regions();
 
+  // a white card is offered, not assumed
+  const hidden = await page.locator("#suggest").isHidden();
+  await page.locator(".region[data-region=white]").click();
+  if (await page.locator("#suggest").isVisible()) await page.locator("#suggest").click();
+  const { white } = await regions();
+
   await page.locator("#find").click();
   await page.mouse.click(...(await onPage(middle(truth.panel0))));
   await page.mouse.click(...(await onPage(middle(truth.panel1))));
@@ -50,7 +57,7 @@ try {
 
   await page.locator("#done").click();
   const goodbye = await (await words("vextract has received the corners")).jsonValue();
-  process.stdout.write(`${JSON.stringify({ greeting, found, dragged, again, goodbye, problems })}\n`);
+  process.stdout.write(`${JSON.stringify({ greeting, found, dragged, hidden, white, again, goodbye, problems })}\n`);
 } finally {
   await browser.close();
 }
