@@ -80,14 +80,16 @@ impl Channels {
     /// by `more` columns of zeros.
     pub fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
         let mut columns = DMatrix::zeros(self.len(), terms.nrows() + more);
+        let data = self.len().max(1);
         for (Lit { compressed, weights }, amount) in self.sources.iter().zip(amounts) {
-            // datum by datum, as there are fewer data than wavebands
-            let seen = product_with_transposed(terms, compressed);
-            for (rows, weights) in self.rows.iter().zip(weights.column_iter()) {
-                for datum in rows.clone() {
-                    for (band, (weight, seen)) in weights.iter().zip(&seen.column(datum)).enumerate() {
-                        columns[(datum, band)] += amount * weight * seen;
-                    }
+            // every channel's weights on the data of that channel alone, after one product for all
+            let seen = product_with_transposed(compressed, terms);
+            let bands = seen.as_slice().chunks_exact(data).enumerate();
+            for (column, (band, seen)) in columns.as_mut_slice().chunks_exact_mut(data).zip(bands) {
+                for (channel, rows) in self.rows.iter().enumerate() {
+                    let weight = amount * weights[(band, channel)];
+                    let of_channel = column[rows.clone()].iter_mut().zip(&seen[rows.clone()]);
+                    of_channel.for_each(|(sum, value)| *sum += weight * value);
                 }
             }
         }

@@ -322,7 +322,7 @@ impl<'a> FacetData<'a> {
         let mut terms = self.scene.facets().terms_of(reflectance);
         if let Some((emission, sent)) = self.sent(unknowns) {
             let made = made(reflectance, &terms, &self.signed_poles(), emission.power_of_reflectance());
-            terms += scaled_rows(&made, sent.fraction.iter());
+            terms += scaled_rows(&made, sent.fraction.as_slice());
         }
         let amounts = self.scene.amounts(unknowns).values();
         let values = self.channels.parts_of(&terms) * &amounts;
@@ -340,9 +340,9 @@ impl<'a> FacetData<'a> {
         let [mut terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
         let emitted = self.emitted(reflectance, unknowns, [&terms, &slopes, &curvatures]);
         if let Some(Emitted { sent, made }) = &emitted {
-            terms += scaled_rows(&made.terms, sent.fraction.iter());
-            slopes += scaled_rows(&made.slopes, sent.fraction.iter());
-            curvatures += scaled_rows(&made.curvatures, sent.fraction.iter());
+            terms += scaled_rows(&made.terms, sent.fraction.as_slice());
+            slopes += scaled_rows(&made.slopes, sent.fraction.as_slice());
+            curvatures += scaled_rows(&made.curvatures, sent.fraction.as_slice());
         }
         let (amounts, parts) = (self.scene.amounts(unknowns), self.channels.parts_of(&terms));
         let (now, by_unknown) = (amounts.values(), amounts.slopes());
@@ -353,7 +353,7 @@ impl<'a> FacetData<'a> {
         jacobian.columns_mut(bands, scene).gemm(1.0, &parts, &by_unknown, 0.0);
         if let Some(Emitted { sent, made: Made { terms, .. } }) = &emitted {
             for (n, by) in sent.slopes.column_iter().enumerate() {
-                let column = self.channels.parts_of(&scaled_rows(terms, by.iter())) * &now;
+                let column = self.channels.parts_of(&scaled_rows(terms, by.as_slice())) * &now;
                 jacobian.column_mut(bands + scene + n).copy_from(&column);
             }
         }
@@ -492,10 +492,10 @@ impl<'a> FacetData<'a> {
 }
 
 /// Multiplies each row by a factor.
-fn scaled_rows<'f>(matrix: &DMatrix<f64>, factors: impl Iterator<Item = &'f f64> + Clone) -> DMatrix<f64> {
+fn scaled_rows(matrix: &DMatrix<f64>, factors: &[f64]) -> DMatrix<f64> {
     let mut scaled = matrix.clone();
-    for mut column in scaled.column_iter_mut() {
-        column.iter_mut().zip(factors.clone()).for_each(|(value, factor)| *value *= factor);
+    for column in scaled.as_mut_slice().chunks_exact_mut(factors.len().max(1)) {
+        column.iter_mut().zip(factors).for_each(|(value, factor)| *value *= factor);
     }
     scaled
 }
