@@ -47,24 +47,26 @@ pub(super) fn white_areas(
     let taken: Vec<Quad> = panels.iter().copied().chain(chart.map(quad)).map(enlarged).collect();
     let mut cells = Cells::of(reduced, &taken);
     let least = least_light(reduced, &panels);
-    let mut brightest = 0.0;
+    let seeds = cells.whitest_first(least);
+    let Some(brightest) = seeds.first().and_then(|seed| cells.light[*seed]).map(darkest_channel) else {
+        return Vec::new();
+    };
     let mut areas = Vec::new();
-    while areas.len() < MOST {
-        let Some((seed, light)) = cells.whitest(least) else { break };
-        let darkest_channel = light.into_iter().fold(f32::INFINITY, f32::min);
-        brightest = f32::max(brightest, darkest_channel);
-        if darkest_channel < LEAST_OF_BRIGHTEST * brightest {
+    for seed in seeds {
+        let Some(light) = cells.light[seed] else { continue }; // of an area that is taken
+        if areas.len() == MOST || darkest_channel(light) < LEAST_OF_BRIGHTEST * brightest {
             break;
         }
-        let brightest_channel =
-            light.iter().zip(reduced.one).map(|(light, one)| light * one).fold(0.0, f32::max);
-        let square = cells.take_area(seed, light);
-        if let Some(square) = square.filter(|_| brightest_channel >= LEAST_OF_FULL_SCALE) {
-            let corners = square.map(|place| Point::new(scale * place.x, scale * place.y));
-            areas.extend((!is_clipped(photograph, &corners)).then_some(corners));
-        }
+        let of_full_scale = light.iter().zip(reduced.one).map(|(light, one)| light * one).fold(0.0, f32::max);
+        let square = cells.take_area(seed, light).filter(|_| of_full_scale >= LEAST_OF_FULL_SCALE);
+        let corners = square.map(|square| square.map(|p| Point::new(scale * p.x, scale * p.y)));
+        areas.extend(corners.filter(|corners| !is_clipped(photograph, corners)));
     }
     areas
+}
+
+fn darkest_channel(light: [f32; 3]) -> f32 {
+    light.into_iter().fold(f32::INFINITY, f32::min)
 }
 
 fn enlarged(quad: Quad) -> Quad {
@@ -72,13 +74,16 @@ fn enlarged(quad: Quad) -> Quad {
     quad.map(|corner| middle + (corner - middle) * MARGIN)
 }
 
-/// Least light of white, channel by channel: that of the panels' middle pixels.
+/// Least light of white, channel by channel: the median of the panels, at one pixel per cell.
 fn least_light(reduced: &Reduced, panels: &[Quad]) -> [f32; 3] {
     let mut of_panels: [Vec<f32>; 3] = Default::default();
-    for (k, light) in reduced.light.iter().enumerate() {
-        let place = Place::new((k % reduced.width) as f64 + 0.5, (k / reduced.width) as f64 + 0.5);
-        if panels.iter().any(|panel| is_inside(panel, place)) {
-            of_panels.iter_mut().zip(light).for_each(|(all, light)| all.push(*light));
+    for y in (0..reduced.height).step_by(CELL_PX) {
+        for x in (0..reduced.width).step_by(CELL_PX) {
+            let place = Place::new(x as f64 + 0.5, y as f64 + 0.5);
+            if panels.iter().any(|panel| is_inside(panel, place)) {
+                let light = reduced.light[y * reduced.width + x];
+                of_panels.iter_mut().zip(light).for_each(|(all, light)| all.push(light));
+            }
         }
     }
     of_panels.map(|mut all| {
@@ -133,13 +138,14 @@ impl Cells {
         Self { width, light: (0..width * height).map(cell).collect() }
     }
 
-    /// The cell with the most light in its darkest channel, with at least this light.
-    fn whitest(&self, least: [f32; 3]) -> Option<(usize, [f32; 3])> {
-        let darkest = |light: &[f32; 3]| light.iter().copied().fold(f32::INFINITY, f32::min);
+    /// The even cells with at least this light, those with the most in their darkest channel first.
+    fn whitest_first(&self, least: [f32; 3]) -> Vec<usize> {
         let is_bright = |light: &[f32; 3]| light.iter().zip(least).all(|(light, least)| *light > least);
         let bright =
             self.light.iter().enumerate().filter_map(|(k, light)| Some((k, light.filter(is_bright)?)));
-        bright.max_by(|(_, a), (_, b)| darkest(a).total_cmp(&darkest(b)))
+        let mut bright: Vec<_> = bright.map(|(k, light)| (k, darkest_channel(light))).collect();
+        bright.sort_by(|a, b| b.1.total_cmp(&a.1));
+        bright.into_iter().map(|(k, _)| k).collect()
     }
 
     /// Takes the area around a cell out of the others; returns the largest square within it, half a cell
@@ -148,31 +154,26 @@ impl Cells {
         let is_alike = |other: &[f32; 3]| {
             other.iter().zip(light).all(|(other, light)| (other - light).abs() < UNLIKE * light)
         };
-        let height = self.light.len() / self.width;
-        let mut is_of_area = vec![false; self.light.len()];
-        let mut next = vec![seed];
+        let (mut area, mut next) = (Vec::new(), vec![seed]);
         while let Some(k) = next.pop() {
-            if !self.light[k].as_ref().is_some_and(is_alike) {
+            if !self.light.get(k).is_some_and(|light| light.as_ref().is_some_and(is_alike)) {
                 continue;
             }
             self.light[k] = None;
-            is_of_area[k] = true;
-            let (x, y) = (k % self.width, k / self.width);
-            next.extend(
-                [
-                    (x > 0).then(|| k - 1),
-                    (x + 1 < self.width).then(|| k + 1),
-                    (y > 0).then(|| k - self.width),
-                    (y + 1 < height).then(|| k + self.width),
-                ]
-                .into_iter()
-                .flatten(),
-            );
+            area.push(k);
+            let x = k % self.width;
+            next.extend((x > 0).then(|| k - 1));
+            next.extend((x + 1 < self.width).then_some(k + 1));
+            next.extend(k.checked_sub(self.width));
+            next.push(k + self.width);
         }
-        self.light[seed] = None;
+        if area.len() < LEAST_CELLS * LEAST_CELLS {
+            return None;
+        }
+        area.sort_unstable();
         // side of the largest square that ends at each cell
-        let mut sides = vec![0_usize; is_of_area.len()];
-        for k in (0..sides.len()).filter(|k| is_of_area[*k]) {
+        let mut sides = vec![0_usize; self.light.len()];
+        for k in area {
             let before = |back: usize| k.checked_sub(back).map_or(0, |k| sides[k]);
             let at_edge = k % self.width == 0;
             let shortest = before(1).min(before(self.width)).min(before(self.width + 1));
