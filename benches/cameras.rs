@@ -3,7 +3,7 @@
 //! of the nearest published matrix, one of its maker, one of any, and the mean of all. Errors are root mean
 //! squares of the curves over 400 to 700 nm, green's peak being 1.
 //!
-//! `cargo bench --bench cameras` prints the table of `benches/results/cameras.md`.
+//! `cargo bench --features raw --bench cameras` prints the table of `benches/results/cameras.md`.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]
 

@@ -36,7 +36,7 @@ pub use drawing::{
 pub use edges::{Marked, REFINED_WITHIN_PX, Refinement, refine};
 pub use finding::{
     DetectedChart, DetectedFold, Detections, NoFold, WeighedFold, find_all, find_chart, find_fold,
-    find_fold_around, weighed_chart, weighed_folds,
+    find_fold_and_chart, find_fold_around, weighed_chart, weighed_folds,
 };
 pub use measuring::{
     FacetMeasurement, Making, MeasuredPanels, PixelRun, Processing, corner_orders, measure, measure_panels,

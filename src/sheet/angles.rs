@@ -36,15 +36,8 @@ pub struct AngleList {
 
 impl AngleList {
     /// Number of pairs.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.places.len()
-    }
-
-    /// True if there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.places.is_empty()
     }
 }
 

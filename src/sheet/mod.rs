@@ -212,6 +212,27 @@ mod tests {
         }
     }
 
+    #[test]
+    fn many_pairs_of_directions_are_reflected_as_one() {
+        let directions =
+            [[0.3, 0.1, 0.9], [-0.8, 0.3, 0.4], [0.1, -0.95, 0.1], [0.0, 0.0, 1.0], [0.6, 0.0, 0.8]];
+        let directions = directions.map(|d| Vector3::from(d).normalize());
+        let pairs = directions.iter().flat_map(|a| directions.iter().map(move |b| Angles::new(a, b)));
+        let pairs: Vec<Angles> = pairs.collect();
+        let list: AngleList = pairs.iter().copied().collect();
+        let matt = Shape::lambertian();
+        for shape in
+            families().into_iter().map(Shape::from).chain(measured().unwrap().iter().cloned()).chain([matt])
+        {
+            let [body, surface] = shape.at_each(&list);
+            for (n, pair) in pairs.iter().enumerate() {
+                let one = shape.at(pair);
+                assert!((body[n] - one[0]).abs() < 1e-12 * (1.0 + one[0].abs()), "{shape:?} {pair:?}");
+                assert!((surface[n] - one[1]).abs() < 1e-12 * (1.0 + one[1].abs()), "{shape:?} {pair:?}");
+            }
+        }
+    }
+
     /// The bihemispherical albedo is the one asked for, and from no direction is more light reflected than
     /// arrives (except by sheen).
     #[test]

@@ -25,6 +25,23 @@ for line in open("found.json"):
     print(f"{name}:", "within 1 px" if off < 1 else f"{off:.1f} px off", "sure" if found["confidence"] >= 0.97 else found["confidence"], "drawn" if drawn else "")
 END
 
+# what may be white is offered, and drawn; it is used once somebody says that it is white
+white=topleft=0.75,0.75,0.75:topright=0.8,0.8,0.8:bottomleft=0.78,0.78,0.78:bottomright=0.8,0.8,0.8
+oiiotool photo.exr --fill:$white 80x80+530+370 -o paper.exr
+vextract --find paper.exr --overlay paper.png > paper.json
+python3 - <<'END'
+import json
+found = json.load(open("paper.json"))
+(a, b, c, d), = found["white_candidates"]
+on_paper = all(530 <= x <= 610 and 370 <= y <= 450 for x, y in (a, b, c, d))
+print("white candidate:", "on the paper" if on_paper and c[0] - a[0] > 40 else found["white_candidates"], "used" if "white" in found else "not used")
+json.dump(found | {"white": [a, b, c, d]}, open("white.json", "w"))
+END
+vkernel --regions paper.json -o of_paper.json
+for regions in paper white; do
+    vextract paper.exr --scene of_paper.json --regions $regions.json --camera canon-5d-mark-ii --illuminant D65 2>/dev/null | grep -c white_paper || true
+done
+
 vkernel --angle-deg 50 --facets 4x4 -o scene.json
 extract() { vextract "$@" --scene scene.json --camera canon-5d-mark-ii --illuminant D65; }
 head -1 found.json > one.json

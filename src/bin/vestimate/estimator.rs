@@ -182,7 +182,7 @@ impl Transform for Estimator<'_> {
                 let photograph = is_photograph.then(photograph).transpose()?;
                 let is_modelled = photograph.as_ref().is_some_and(|one| matches!(one.parts, Some(Ok(_))));
                 if !(is_modelled && self.is_auto()) {
-                    self.say_paper_unused(sample)?;
+                    self.say_paper_unused(sample, exposure)?;
                 }
                 let facets = Facets { measured, exposure, photograph: photograph.as_ref() };
                 let Measurement { estimate, verdict, unmodelled, .. } = inference.measure(&facets, &data)?;
@@ -192,12 +192,12 @@ impl Transform for Estimator<'_> {
                 (estimate, Some(verdict), how)
             }
             SceneMethod::Smooth(smoothness) => {
-                self.say_paper_unused(sample)?;
+                self.say_paper_unused(sample, exposure)?;
                 let (estimate, how) = self.smooth(context, &rgb, &noise, exposure, *smoothness)?;
                 (estimate, None, how)
             }
             SceneMethod::Flat(flat) => {
-                self.say_paper_unused(sample)?;
+                self.say_paper_unused(sample, exposure)?;
                 let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
                 let sheet = FlatSheet::new(context.model.facets(), &measured, exposure)?;
                 (flat.estimate(&sheet)?, None, flat.to_string())
@@ -384,8 +384,9 @@ impl<'a> Estimator<'a> {
 
     /// Warns that white paper in a photograph does not give the exposure of a sheet that is treated as ideal:
     /// how white it is has an error, which only the model of real sheets takes into account.
-    fn say_paper_unused(&self, sample: &Sample) -> Result<()> {
-        if !self.asked.args.common.quiet && sample.white_paper()?.is_some() {
+    fn say_paper_unused(&self, sample: &Sample, exposure: Exposure) -> Result<()> {
+        let is_asked = !self.asked.args.common.quiet && exposure.known().is_none();
+        if is_asked && sample.white_paper()?.is_some() {
             let text = "the white region, taken for paper, does not give the exposure here: only photographs \
                         of folds use it, and only with --fit auto; give vextract its --white-reflectance";
             cli::say("vestimate", &format!("{}: {text}", sample.id()));

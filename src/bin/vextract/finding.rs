@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use vfold::cli;
 use vfold::image::{
     CornersBy, DetectedChart, DetectedFold, Detections, FoldSeen, Grid, Homography, Lens, OtherFold,
-    Photograph, Point, find_all, find_fold,
+    Photograph, Point, find_all, find_fold, find_fold_and_chart,
 };
 use vfold::scene::stated_fold;
 use vfold::stream::{Output, Regions, Scene, detection_line, no_detection_line};
@@ -30,7 +30,7 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
             opened => opened?,
         };
         let lens = args.placing.lens(&photograph)?;
-        let found = sure_chart(find_all(&photograph, &lens));
+        let found = find_all(&photograph, &lens);
         if found.fold.is_ok() || found.chart.is_some() || !found.white_candidates.is_empty() {
             let Detections { fold, chart, white_candidates } = &found;
             draw(args, path, &photograph, (fold.as_ref().ok(), chart.as_ref(), white_candidates), lens)?;
@@ -38,11 +38,6 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
         out.text(&line(args, path, &photograph, lens, &found)?)?;
     }
     Ok(())
-}
-
-/// The same without a chart of which it is not sure.
-pub fn sure_chart(found: Detections) -> Detections {
-    Detections { chart: found.chart.filter(DetectedChart::is_sure), ..found }
 }
 
 /// The line for a photograph with these detections.
@@ -84,8 +79,7 @@ pub fn find(
     regions: &mut Regions,
 ) -> Result<f64> {
     let (fold, chart) = if regions.chart.is_none() && regions.white.is_none() {
-        let Detections { fold, chart, .. } = find_all(photograph, &lens);
-        (fold, chart)
+        find_fold_and_chart(photograph, &lens)
     } else {
         (find_fold(photograph, &lens), None)
     };

@@ -31,8 +31,7 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
     };
     let photograph = reading.open(path)?;
     let lens = args.placing.lens(&photograph)?;
-    let found = finding::sure_chart(find_all(&photograph, &lens));
-    let found = finding::line(args, path, &photograph, lens, &found)?;
+    let found = finding::line(args, path, &photograph, lens, &find_all(&photograph, &lens))?;
     // everything else remains as the person marked it
     let around = |clicks| {
         let fold = find_fold_around(&photograph, &lens, clicks);

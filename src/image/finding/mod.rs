@@ -124,19 +124,49 @@ pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<DetectedFold, N
     most_probable(photograph, &Reduced::of(photograph), lens, LEAST_CONFIDENCE, |_| true)
 }
 
-/// All that is looked for in a photograph.
+/// The fold and the colour chart of a photograph, in less time than one after the other.
+///
+/// # Returns
+/// As [`find_fold`] and [`find_chart`].
+///
+/// # Example
+/// ```
+/// use vfold::image::{Lens, NoFold, Photograph, find_fold_and_chart};
+/// let empty = Photograph::from_light(240, 200, vec![0.1; 240 * 200])?;
+/// assert_eq!(find_fold_and_chart(&empty, &Lens::STRAIGHT), (Err(NoFold::Nothing), None));
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn find_fold_and_chart(
+    photograph: &Photograph,
+    lens: &Lens,
+) -> (Result<DetectedFold, NoFold>, Option<DetectedChart>) {
+    both(photograph, &Reduced::of(photograph), lens)
+}
+
+fn both(
+    photograph: &Photograph,
+    reduced: &Reduced,
+    lens: &Lens,
+) -> (Result<DetectedFold, NoFold>, Option<DetectedChart>) {
+    rayon::join(
+        || most_probable(photograph, reduced, lens, LEAST_CONFIDENCE, |_| true),
+        || chart::most_alike(photograph, reduced, lens).map(|(chart, _)| chart),
+    )
+}
+
+/// What a person is shown of a photograph.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Detections {
     /// As [`find_fold`] returns it.
     pub fold: Result<DetectedFold, NoFold>,
-    /// As [`find_chart`] returns it.
+    /// As [`find_chart`] returns it, if it is [sure](DetectedChart::is_sure).
     pub chart: Option<DetectedChart>,
     /// Corners of even bright areas elsewhere that may be white paper or a card, px of the upright picture,
     /// the whitest first: none is known to be white.
     pub white_candidates: Vec<[Point; 4]>,
 }
 
-/// Fold, colour chart and white areas of a photograph, in less time than one after the other.
+/// Fold, colour chart and areas that may be white, for a person to decide.
 ///
 /// # Example
 /// ```
@@ -151,13 +181,11 @@ pub struct Detections {
 #[must_use]
 pub fn find_all(photograph: &Photograph, lens: &Lens) -> Detections {
     let reduced = Reduced::of(photograph);
-    let (fold, chart) = rayon::join(
-        || most_probable(photograph, &reduced, lens, LEAST_CONFIDENCE, |_| true),
-        || chart::most_alike(photograph, &reduced, lens).map(|(chart, _)| chart),
-    );
+    let (fold, chart) = both(photograph, &reduced, lens);
+    let chart = chart.filter(DetectedChart::is_sure);
     let panels = fold.as_ref().ok().map(|found| &found.panels);
-    let of_chart = chart.as_ref().filter(|chart| chart.is_sure()).map(|chart| &chart.corners);
-    let white_candidates = white_areas(photograph, &reduced, (panels, of_chart));
+    let white_candidates =
+        white_areas(photograph, &reduced, (panels, chart.as_ref().map(|chart| &chart.corners)));
     Detections { fold, chart, white_candidates }
 }
 

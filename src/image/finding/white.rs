@@ -10,22 +10,20 @@ use crate::image::placing::Point;
 
 /// Side of a cell, px of the reduced picture.
 const CELL_PX: usize = 6;
-/// Largest standard deviation of the light within a cell, and largest difference of a cell from the brightest
-/// of its area, relative to the light.
+/// Largest standard deviation of the light within a cell, and largest difference of an area's cells from its
+/// brightest one, relative to the light.
 const UNEVEN: f32 = 0.04;
 const UNLIKE: f32 = 0.08;
-/// Least light of an area in its darkest channel, relative to the brightest area, and to the median of the
-/// fold's panels: these face the sun obliquely, and no sheet is whiter than white.
+/// Least light of an area in its darkest channel, relative to that of the brightest area.
 const LEAST_OF_BRIGHTEST: f32 = 0.6;
-const LEAST_OF_PANELS: f32 = 1.0;
-/// Least light of an area in its brightest channel, relative to the picture's white level: where pictures are
-/// not underexposed by far, what is darker is a table.
+/// Least light of an area in its brightest channel, relative to the picture's white level: unless pictures are
+/// far underexposed, what is darker is a table. Set with photographs of `../shared/real` in view.
 const LEAST_OF_FULL_SCALE: f32 = 0.25;
 /// Least side of an area, cells.
 const LEAST_CELLS: usize = 4;
 /// Most areas returned.
 const MOST: usize = 3;
-/// Panels and charts are enlarged by this factor, as are their margins.
+/// Panels and a chart are enlarged by this factor, so that their margins do not count as areas.
 const MARGIN: f64 = 1.15;
 
 /// Mean light of the cells of a picture, row by row; `None` where light is uneven.
@@ -59,10 +57,10 @@ pub(super) fn white_areas(
         }
         let of_full_scale = light.iter().zip(reduced.one).map(|(light, one)| light * one).fold(0.0, f32::max);
         let square = cells.take_area(seed, light).filter(|_| of_full_scale >= LEAST_OF_FULL_SCALE);
-        let corners = square.map(|square| square.map(|p| Point::new(scale * p.x, scale * p.y)));
-        areas.extend(corners.filter(|corners| !is_clipped(photograph, corners)));
+        let square = square.map(|square| square.map(|place| scale * place));
+        areas.extend(square.filter(|square| !is_clipped(photograph, square)));
     }
-    areas
+    areas.into_iter().map(|square: Quad| square.map(|place| Point::new(place.x, place.y))).collect()
 }
 
 fn darkest_channel(light: [f32; 3]) -> f32 {
@@ -74,7 +72,8 @@ fn enlarged(quad: Quad) -> Quad {
     quad.map(|corner| middle + (corner - middle) * MARGIN)
 }
 
-/// Least light of white, channel by channel: the median of the panels, at one pixel per cell.
+/// Least light of white, channel by channel: the median of the panels, at one pixel per cell. Panels face the
+/// sun obliquely, and no sheet is whiter than white.
 fn least_light(reduced: &Reduced, panels: &[Quad]) -> [f32; 3] {
     let mut of_panels: [Vec<f32>; 3] = Default::default();
     for y in (0..reduced.height).step_by(CELL_PX) {
@@ -88,25 +87,15 @@ fn least_light(reduced: &Reduced, panels: &[Quad]) -> [f32; 3] {
     }
     of_panels.map(|mut all| {
         let middle = all.len() / 2;
-        if all.is_empty() {
-            0.0
-        } else {
-            LEAST_OF_PANELS * *all.select_nth_unstable_by(middle, f32::total_cmp).1
-        }
+        if all.is_empty() { 0.0 } else { *all.select_nth_unstable_by(middle, f32::total_cmp).1 }
     })
 }
 
-/// Whether a corner or the middle of an area is overexposed.
-fn is_clipped(photograph: &Photograph, corners: &[Point; 4]) -> bool {
-    let middle =
-        corners.iter().fold(Point::new(0.0, 0.0), |sum, p| Point::new(sum.x + p.x / 4.0, sum.y + p.y / 4.0));
-    corners.iter().chain([&middle]).any(|place| {
-        let [x, y] = [place.x, place.y].map(|px| px as usize);
-        matches!(
-            photograph.pixel(x.min(photograph.width() - 1), y.min(photograph.height() - 1)),
-            Pixel::Clipped
-        )
-    })
+/// Whether a corner or the middle of an area, px of the photograph, is overexposed.
+fn is_clipped(photograph: &Photograph, square: &Quad) -> bool {
+    let is_clipped =
+        |place: &Place| matches!(photograph.pixel(place.x as usize, place.y as usize), Pixel::Clipped);
+    square.iter().chain([&centre(square)]).any(is_clipped)
 }
 
 impl Cells {
