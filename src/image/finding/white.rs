@@ -16,8 +16,8 @@ const UNEVEN: f32 = 0.04;
 const UNLIKE: f32 = 0.08;
 /// Least light of an area in its darkest channel, relative to that of the brightest area.
 const LEAST_OF_BRIGHTEST: f32 = 0.6;
-/// Least light of an area in its brightest channel, relative to the picture's white level: unless pictures are
-/// far underexposed, what is darker is a table. Set with photographs of `../shared/real` in view.
+/// Least light of an area in its brightest channel, relative to the picture's white level: unless pictures
+/// are far underexposed, what is darker is a table. Set with photographs of `../shared/real` in view.
 const LEAST_OF_FULL_SCALE: f32 = 0.25;
 /// Least side of an area, cells.
 const LEAST_CELLS: usize = 4;
