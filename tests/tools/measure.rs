@@ -80,6 +80,41 @@ fn a_camera_that_no_photograph_names_is_asked_at_a_terminal() {
     }
 }
 
+/// White paper or a card beside the sheet shows the exposure, once somebody says that it is white.
+#[test]
+fn what_may_be_white_is_asked_at_a_terminal() {
+    let with_paper = "oiiotool photo.exr --fill:topleft=0.75,0.75,0.75:topright=0.8,0.8,0.8\
+        :bottomleft=0.78,0.78,0.78:bottomright=0.8,0.8,0.8 80x80+530+370 -o paper.exr";
+    let (folder, setup) = run(&["photo.exr"], with_paper);
+    assert_eq!(setup.status, 0, "{setup:?}");
+    let question = "px of paper.exr, drawn in ./vfold-paper/overlay.png: printing paper (p)";
+    for (typed, questions, used) in
+        [("", 1, ""), ("p", 1, "white_paper"), ("0.9", 1, "white card"), ("1.7\n0.9", 2, "white card")]
+    {
+        let ended = again(&folder, &format!("printf '{typed}\\n' | typing {KNOWN} paper.exr"));
+        assert_eq!(ended.status, 0, "{typed}: {ended:?}");
+        assert_eq!(ended.stdout.matches(question).count(), questions, "{typed}: {ended:?}");
+        let record = folder.sh("tail -n 1 vfold-paper/result.ndjson").stdout;
+        for exposure in ["white_paper", "white card"] {
+            assert_eq!(record.contains(exposure), exposure == used, "{typed}: {exposure}");
+        }
+    }
+    // nobody is asked what the command line or the corners state
+    let known = "vkernel | vforward --reflectance cc24:magenta --camera canon-5d-mark-ii --illuminant D65 \
+        > known.ndjson; cp vfold-paper/regions.json marked.json";
+    assert_eq!(again(&folder, known).status, 0);
+    for (call, used) in [
+        ("measure --yes", ""),
+        ("printf 'p\\n' | typing --known-fold known.ndjson=cc24:magenta", ""),
+        ("typing --white-reflectance 0.9 --regions marked.json", "white card"),
+    ] {
+        let ended = again(&folder, &format!("{call} {KNOWN} paper.exr"));
+        assert!(!ended.stdout.contains(question), "{call}: {ended:?}");
+        let record = folder.sh("tail -n 1 vfold-paper/result.ndjson").stdout;
+        assert_eq!(record.contains("white card"), used == "white card", "{call}");
+    }
+}
+
 /// Of all photographs that name none, once.
 #[test]
 fn an_answer_holds_for_the_photographs_that_follow() {
@@ -162,6 +197,7 @@ fn a_wrong_call_is_refused_before_anything_is_measured() {
         ("photo.exr --angle-deg 500", "500 is not an angle", 2),
         ("photo.exr --known-fold photo.exr", "write FILE=SPEC", 2),
         ("photo.exr --known-fold photo.exr=cc24:rod", "cc24:rod", 2),
+        ("photo.exr --white-reflectance 1.7", "reflectance 1.7 is outside 0..1", 2),
     ] {
         let (folder, run) = run(&["photo.exr"], &format!("measure {call}"));
         assert!(run.status == status && run.stderr.contains(why), "{call}: {run:?}");
