@@ -9,7 +9,7 @@ complete -c vextract -l white-region -d 'Corners of a white card in the picture,
 complete -c vextract -l regions -d 'JSON file of corners (see below), - for standard input; the flags above override it' -r -F
 complete -c vextract -l margin -d 'Keep this distance from the panels\' edges, px' -r
 complete -c vextract -l refine -d 'Move the panels\' corners to the edges and the crease within PX pixels, 1 to 100, instead of 6, and report sides that have no edge' -r
-complete -c vextract -l distortion -d 'Lens distortion about the picture\'s centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side' -r
+complete -c vextract -l distortion -d 'Lens distortion about the picture\'s centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side [default: K1 by the bend of the panels\' outer sides, unless corners are exact]' -r
 complete -c vextract -l overlay -d 'Draw panels, facets and excluded pixels (red) over the photograph; {} stands for the name of the IMAGE' -r -F
 complete -c vextract -l preview -d 'Write a small picture for finding corners with share/picker.html, and exit; {} as above' -r -F
 complete -c vextract -l transfer -d 'Transfer curve of the stored numbers; auto: as the file states, else sRGB for 8 bits and linear for the rest' -r

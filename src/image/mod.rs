@@ -48,8 +48,8 @@ pub use photograph::{
     SensorInfo, Taken,
 };
 pub use placing::{
-    CHART_CORNERS, CameraPose, Framing, Grid, Homography, Lens, PANEL_CORNERS, Point, WHITE_CORNERS,
-    camera_pose, camera_position, check_inside, parse_corners, parse_point,
+    CHART_CORNERS, CameraPose, Framing, Grid, Homography, Lens, LensEstimate, PANEL_CORNERS, Point,
+    WHITE_CORNERS, camera_pose, camera_position, check_inside, parse_corners, parse_point,
 };
 pub use pose::{CornersBy, FoldAngle, FoldSeen, OtherFold, StatedFold};
 pub use reading::PictureFile;

@@ -22,8 +22,8 @@ use crate::estimate::verdict::refuse_unexplained;
 use crate::forward::FacetValues;
 use crate::geometry::{FacetGrid, Fold, Light};
 use crate::image::{
-    CornersBy, FacetMeasurement, FoldSeen, Framing, Lens, Making, MeasuredPanels, Photograph, Point,
-    REFINED_WITHIN_PX, measure_panels, open_sides, refine,
+    CornersBy, FacetMeasurement, FoldSeen, Framing, LensEstimate, Making, MeasuredPanels, Photograph, Point,
+    REFINED_WITHIN_PX, Refinement, measure_panels, open_sides, refine,
 };
 use crate::kernel::mesh::{TOLERANCE, respond};
 use crate::scene::{
@@ -167,9 +167,10 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     let panels: BTreeMap<_, _> = fold.fold.panels().into_iter().enumerate().collect();
     let marked: BTreeMap<_, _> = setup.corners.into_iter().enumerate().collect();
     let panels = MarkedPanels::new(&panels, &marked)?;
-    let refined = refine(photograph, &panels.marked, &Lens::STRAIGHT, REFINED_WITHIN_PX)?.panels;
+    let Refinement { panels: refined, lens, .. } =
+        refine(photograph, &panels.marked, &LensEstimate::UNKNOWN, REFINED_WITHIN_PX)?;
     let corners = <[[Point; 4]; 2]>::try_from(refined).unwrap_or(setup.corners);
-    let panels = panels.grids(Lens::STRAIGHT, corners)?;
+    let panels = panels.grids(lens.lens, corners)?;
     let MeasuredPanels { facets, processing, .. } = measure_panels(photograph, &panels, 0.0)?;
     let rgb = values(&facets, |facet| facet.mean.clone())?;
     let noise = Noise {
@@ -195,7 +196,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     let seen = FoldSeen {
         size: [photograph.width(), photograph.height()],
         corners_by: CornersBy::Hand,
-        lens: None,
+        lens,
         focal_35mm: photograph.info().camera.focal_35mm,
         depths: None,
     };

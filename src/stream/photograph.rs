@@ -9,7 +9,7 @@ use super::development::DevelopmentRecord;
 use super::{Sample, colours};
 use crate::error::Result;
 use crate::image::{
-    FacetMeasurement, FileStamp, FoldAngle, Framing, Grid, Making, OtherFold, PhotographInfo, Point,
+    FacetMeasurement, FileStamp, FoldAngle, Framing, Grid, Lens, Making, OtherFold, PhotographInfo, Point,
     Processing, Refinement,
 };
 
@@ -100,7 +100,8 @@ pub struct ImageRecord {
     other_fold: Option<OtherFoldRecord>,
     /// Distance from the panels' edges within which pixels are left out, px.
     margin_px: f64,
-    /// Distortion by the lens: the coefficients K1 and K2 of `vextract --distortion`.
+    /// Distortion by the lens: the coefficients K1 and K2 of `vextract --distortion`, stated or by the bend
+    /// of the panels' outer sides.
     #[serde(skip_serializing_if = "Option::is_none")]
     distortion: Option<[f64; 2]>,
     /// How far the corners were moved to the edges around them.
@@ -306,8 +307,8 @@ impl ImageRecord {
 
     /// The record with the lens coefficients and the results of refinement, if requested.
     #[must_use]
-    pub fn with_placing(mut self, distortion: Option<[f64; 2]>, refinement: Option<&Refinement>) -> Self {
-        self.distortion = distortion;
+    pub fn with_placing(mut self, lens: Option<Lens>, refinement: Option<&Refinement>) -> Self {
+        self.distortion = lens.map(|lens| lens.coefficients());
         self.refined = refinement.map(|refinement| RefinedRecord {
             moved_px: refinement.moved_px.clone(),
             sides_without_edge: refinement.sides_without_edge.clone(),

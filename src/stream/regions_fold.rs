@@ -1,7 +1,7 @@
 //! The angle of the fold in a set of regions, and the form of its panels.
 
 use super::Regions;
-use crate::image::{CornersBy, FoldAngle, FoldSeen};
+use crate::image::{CornersBy, FoldAngle, FoldSeen, LensEstimate};
 
 /// Why corners do not determine the angle of a fold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -28,7 +28,7 @@ impl Regions {
         let panels = [corners(0)?, corners(1)?];
         let corners_by = if self.confidence.is_some() { CornersBy::Finding } else { CornersBy::Hand };
         let size = self.size.ok_or(NoAngle::NoSize)?;
-        let seen = FoldSeen { size, corners_by, lens: None, focal_35mm: None, depths };
+        let seen = FoldSeen { size, corners_by, lens: LensEstimate::UNKNOWN, focal_35mm: None, depths };
         seen.angle(&panels).ok_or(NoAngle::NoFold)
     }
 }

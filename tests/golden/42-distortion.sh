@@ -1,5 +1,5 @@
 # A lens that bends straight lines, played by oiiotool's warp along a map from NumPy: with its coefficients facets are those of the
-# straight picture, corners off by four pixels are found, and without them facets are not.
+# straight picture, corners off by four pixels are found, and so they nearly are by the bend of the sheet's sides; as marked, facets are not.
 vkernel --angle-deg 50 --facets 3x3 -o scene.json
 vforward scene.json --reflectance cc24:orange --exposure 2 --render photo.exr -o sample.ndjson 2>/dev/null
 cat > lens.py <<'END'
@@ -42,13 +42,14 @@ extract() {
 extract photo.exr straight straight --exact-corners
 extract bent.exr bent bent --distortion=-0.05,0.01 --exact-corners
 extract bent.exr typed refined --distortion=-0.05,0.01
+extract bent.exr typed unstated
 extract bent.exr bent ignored --exact-corners
 python3 - <<'END'
 import json
 import numpy as np
 from lens import seen
 straight = np.load("straight.npy")
-for name, limit in (("bent", 0.002), ("refined", 0.005), ("ignored", 0.005)):
+for name, limit in (("bent", 0.002), ("refined", 0.005), ("unstated", 0.01), ("ignored", 0.005)):
     error = np.abs(np.load(f"{name}.npy") / straight - 1)[..., 0].max()
     print(f"{name}: red {'within' if error < limit else 'not within'} {limit:.1%}")
 true = np.array([[float(x) for x in corner.split(",")] for k in "01" for corner in open("bent" + k).read().split()])

@@ -7,7 +7,7 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use vfold::forward::render::{Frame, Pinhole, Stand};
 use vfold::geometry::{FacetGrid, Fold};
-use vfold::image::{CornersBy, FoldAngle, FoldSeen, Lens, Point};
+use vfold::image::{CornersBy, FoldAngle, FoldSeen, Lens, LensEstimate, Point};
 
 /// Diagonal of a picture on film, mm.
 const FILM_DIAGONAL_MM: f64 = 43.27;
@@ -56,7 +56,7 @@ impl Scene {
         FoldSeen {
             size: SIZE,
             corners_by: CornersBy::Finding,
-            lens: None,
+            lens: LensEstimate::UNKNOWN,
             focal_35mm: Some(self.focal_mm),
             depths: None,
         }

@@ -6,7 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal, Uniform};
 use serde_json::Value;
-use vfold::image::{Lens, Marked, Photograph, Point, ReadOptions, Refinement, refine, write_linear};
+use vfold::image::{
+    Lens, LensEstimate, Marked, Photograph, Point, ReadOptions, Refinement, refine, write_linear,
+};
 
 use crate::common::is_there;
 
@@ -50,7 +52,8 @@ fn worst(folder: &str, file: &str, clicks: u64) -> [f64; 2] {
     let (photograph, truth) = (open(&path), corners(&sidecar));
     let mut worst = [0.0_f64; 2];
     for seed in 0..clicks {
-        let found = refine(&photograph, &marked(&clicked(&truth, 4.0, seed)), &Lens::STRAIGHT, 6.0).unwrap();
+        let found =
+            refine(&photograph, &marked(&clicked(&truth, 4.0, seed)), &LensEstimate::UNKNOWN, 6.0).unwrap();
         for (panel, k) in (0..2).flat_map(|panel| (0..4).map(move |k| (panel, k))) {
             let off = distance(found.panels[panel][k], truth[panel][k]);
             worst[usize::from(k < 2)] = worst[usize::from(k < 2)].max(off);
@@ -81,18 +84,18 @@ fn corners_four_pixels_off_find_back() {
 
 /// A grey picture of 200 x 200 px of light, refined from a quadrilateral in its middle.
 fn refined(light: impl Fn(f64, f64) -> f64) -> (Refinement, [Point; 4]) {
-    refined_in_colour(|x, y| [light(x, y); 3])
+    refined_in_colour(&LensEstimate::UNKNOWN, |x, y| [light(x, y); 3])
 }
 
 /// The same of a picture in colour.
-fn refined_in_colour(light: impl Fn(f64, f64) -> [f64; 3]) -> (Refinement, [Point; 4]) {
+fn refined_in_colour(lens: &LensEstimate, light: impl Fn(f64, f64) -> [f64; 3]) -> (Refinement, [Point; 4]) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("light.exr");
     let rgb: Vec<f64> =
         (0..200 * 200).flat_map(|k| light(f64::from(k % 200) + 0.5, f64::from(k / 200) + 0.5)).collect();
     write_linear(&path, 200, 200, &rgb).unwrap();
     let given = [(50.3, 40.2), (150.1, 45.0), (160.7, 150.4), (42.0, 155.5)].map(|(x, y)| Point::new(x, y));
-    (refine(&open(&path), &marked(&[given]), &Lens::STRAIGHT, 6.0).unwrap(), given)
+    (refine(&open(&path), &marked(&[given]), lens, 6.0).unwrap(), given)
 }
 
 #[test]
@@ -123,10 +126,55 @@ fn an_edge_between_colours_that_are_equally_bright_is_found() {
             (b.x - a.x) * (y - a.y) > (b.y - a.y) * (x - a.x)
         })
     };
-    let (found, _) = refined_in_colour(|x, y| if is_sheet(x, y) { [0.5, 0.3, 0.1] } else { [0.2, 0.3, 0.4] });
+    let light = |x, y| if is_sheet(x, y) { [0.5, 0.3, 0.1] } else { [0.2, 0.3, 0.4] };
+    // pixels of this picture are of one colour or the other: half a pixel is as near as they tell, so that
+    // sides may look bent, which no lens did
+    let (found, _) = refined_in_colour(&LensEstimate::stated(Lens::STRAIGHT), light);
     for (found, truth) in found.panels[0].iter().zip(corners) {
-        // pixels of this picture are of one colour or the other: half a pixel is as near as they tell
         assert!(distance(*found, truth) < 0.6, "{found:?} {truth:?}");
+    }
+}
+
+/// A lens bends all sides of a sheet. The side opposite the crease shows by how much, so that corners are
+/// where the curves meet; a stated lens is believed.
+#[test]
+fn the_bend_of_the_outer_side_shows_the_lens() {
+    let flat = [(30.0, 22.0), (168.0, 30.0), (172.0, 181.0), (25.0, 176.0)].map(|(x, y)| Point::new(x, y));
+    for k1 in [-0.035, -0.01, 0.02] {
+        let lens = Lens::new([k1, 0.0], 200, 200).unwrap();
+        // a sheet in each of 5 x 5 parts of a pixel
+        let is_sheet = |x: f64, y: f64| {
+            let p = lens.undistort(Point::new(x, y));
+            (0..4).all(|k| {
+                let (a, b) = (flat[k], flat[(k + 1) % 4]);
+                (b.x - a.x) * (p.y - a.y) > (b.y - a.y) * (p.x - a.x)
+            })
+        };
+        let share = |x: f64, y: f64| {
+            let parts = (0..25)
+                .filter(|k| is_sheet(x - 0.4 + 0.2 * f64::from(k % 5), y - 0.4 + 0.2 * f64::from(k / 5)));
+            parts.count() as f64 / 25.0
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bent.exr");
+        let rgb: Vec<f64> = (0..200 * 200)
+            .flat_map(|k| [0.1 + 0.5 * share(f64::from(k % 200) + 0.5, f64::from(k / 200) + 0.5); 3])
+            .collect();
+        write_linear(&path, 200, 200, &rgb).unwrap();
+        let truth = flat.map(|corner| lens.distort(corner));
+        let given = marked(&[truth.map(|p| Point::new(p.x + 1.5, p.y - 1.0))]);
+        let off = |known: &LensEstimate| {
+            let found = refine(&open(&path), &given, known, 6.0).unwrap();
+            let off = found.panels[0].iter().zip(truth).map(|(found, truth)| distance(*found, truth));
+            (off.fold(0.0, f64::max), found.lens)
+        };
+        let (off_px, found) = off(&LensEstimate::UNKNOWN);
+        assert!(off_px < 0.25, "{k1}: {off_px}");
+        let error = found.lens.coefficients()[0] - k1;
+        assert!(error.abs() < 0.004 && error.abs() < 3.0 * found.k1_sd, "{k1}: {found:?}");
+        let (straight_px, stated) = off(&LensEstimate::stated(Lens::STRAIGHT));
+        assert_eq!(stated, LensEstimate::stated(Lens::STRAIGHT));
+        assert!(straight_px > 2.0 * off_px, "{k1}: {straight_px}");
     }
 }
 
@@ -135,7 +183,7 @@ fn an_edge_between_colours_that_are_equally_bright_is_found() {
 #[test]
 fn the_end_of_a_shadow_is_not_the_end_of_the_sheet() {
     let beyond = |x: f64, y: f64| (x - 153.0) * 105.4 / 105.9 - (y - 45.0) * 10.6 / 105.9;
-    let (found, _) = refined_in_colour(|x, y| match beyond(x, y) {
+    let (found, _) = refined_in_colour(&LensEstimate::UNKNOWN, |x, y| match beyond(x, y) {
         outside if outside > 4.0 => [0.5, 0.5, 0.5],
         outside if outside > 0.0 => [0.02, 0.02, 0.02],
         _ => [0.4, 0.2, 0.1],
@@ -160,7 +208,8 @@ fn panels_that_share_no_crease_are_refused() {
     let panel =
         |x: f64| [(x, 10.0), (x, 90.0), (x + 40.0, 90.0), (x + 40.0, 10.0)].map(|(x, y)| Point::new(x, y));
     let photograph = open(&Path::new(PHOTOS).join("a_ideal_magenta_50.exr"));
-    let error = refine(&photograph, &marked(&[panel(10.0), panel(100.0)]), &Lens::STRAIGHT, 6.0).unwrap_err();
+    let error =
+        refine(&photograph, &marked(&[panel(10.0), panel(100.0)]), &LensEstimate::UNKNOWN, 6.0).unwrap_err();
     assert_eq!(error.exit_status(), 2, "{error}");
 }
 

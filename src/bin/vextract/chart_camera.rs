@@ -48,7 +48,7 @@ pub fn save(
         args.common.illuminant(optics.one_illuminant("name one: a photograph has one light")?)?;
     let grid = &optics.wavelengths_nm;
     let power = illuminant.on(grid, Outside::Refuse)?;
-    let lens = args.placing.lens(&photograph)?;
+    let lens = args.placing.lens(&photograph)?.lens;
     let corners = regions.of_any(path, &photograph)?.chart;
     let corners = corners
         .ok_or_else(|| Error::usage(FLAG, "no chart is marked", "give --chart, or 'chart' in --regions"))?;

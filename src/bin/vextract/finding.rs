@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 
 use vfold::cli;
 use vfold::image::{
-    CornersBy, DetectedChart, DetectedFold, Detections, FoldSeen, Grid, Homography, Lens, OtherFold,
+    CornersBy, DetectedChart, DetectedFold, Detections, FoldSeen, Grid, Homography, LensEstimate, OtherFold,
     Photograph, Point, find_all, find_fold, find_fold_and_chart,
 };
 use vfold::scene::stated_fold;
 use vfold::stream::{Output, Regions, Scene, detection_line, no_detection_line};
 use vfold::{Error, Result};
 
+use super::placing::Placed;
 use super::{Args, balance, reading::Reading};
 
 /// Prints the positions of fold, chart and white areas in each photograph, and draws them if `--overlay` is
@@ -33,9 +34,9 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
         let found = find_all(&photograph, &lens);
         if found.fold.is_ok() || found.chart.is_some() || !found.white_candidates.is_empty() {
             let Detections { fold, chart, white_candidates } = &found;
-            draw(args, path, &photograph, (fold.as_ref().ok(), chart.as_ref(), white_candidates), lens)?;
+            draw(args, path, &photograph, (fold.as_ref().ok(), chart.as_ref(), white_candidates))?;
         }
-        out.text(&line(args, path, &photograph, lens, &found)?)?;
+        out.text(&line(path, &photograph, &found)?)?;
     }
     Ok(())
 }
@@ -44,30 +45,24 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
 ///
 /// # Errors
 /// As [`detection_line`].
-pub fn line(
-    args: &Args,
-    path: &Path,
-    photograph: &Photograph,
-    lens: Lens,
-    found: &Detections,
-) -> Result<String> {
-    let angle = found.fold.as_ref().ok().and_then(|fold| seen(args, photograph, lens).angle(&fold.panels));
+pub fn line(path: &Path, photograph: &Photograph, found: &Detections) -> Result<String> {
+    let angle = found.fold.as_ref().ok().and_then(|fold| seen(photograph, fold.lens).angle(&fold.panels));
     detection_line(path, photograph, found, angle.as_ref())
 }
 
 /// Data on a fold's angle in a photograph other than its corners.
-fn seen(args: &Args, photograph: &Photograph, lens: Lens) -> FoldSeen {
+fn seen(photograph: &Photograph, lens: LensEstimate) -> FoldSeen {
     FoldSeen {
         size: [photograph.width(), photograph.height()],
         corners_by: CornersBy::Finding,
-        lens: args.placing.is_lens_stated().then_some(lens),
+        lens,
         focal_35mm: photograph.info().camera.focal_35mm,
         depths: None,
     }
 }
 
 /// Detects the panels of a fold, and a chart unless a calibration target is stated, and adds them to
-/// `regions`; returns the confidence.
+/// `regions`.
 ///
 /// # Errors
 /// [`Error::Picture`] if no fold is found, or its confidence is too low for measuring it without review.
@@ -75,9 +70,9 @@ pub fn find(
     args: &Args,
     path: &Path,
     photograph: &Photograph,
-    lens: Lens,
     regions: &mut Regions,
-) -> Result<f64> {
+) -> Result<DetectedFold> {
+    let lens = args.placing.lens(photograph)?;
     let (fold, chart) = if regions.chart.is_none() && regions.white.is_none() {
         find_fold_and_chart(photograph, &lens)
     } else {
@@ -85,14 +80,14 @@ pub fn find(
     };
     let found = fold.map_err(|none| not_found(path, &none))?;
     if !found.is_sure() {
-        draw(args, path, photograph, (Some(&found), None, &[]), lens)?;
+        draw(args, path, photograph, (Some(&found), None, &[]))?;
         return Err(unsure(path, found.confidence));
     }
     if !args.common.quiet {
         let line = format!("{}: corners found, {:.1} % sure", path.display(), 100.0 * found.confidence);
         cli::say("vextract", &line);
     }
-    let angle = seen(args, photograph, lens).angle(&found.panels);
+    let angle = seen(photograph, found.lens).angle(&found.panels);
     regions.angle_deg = angle.map(|angle| angle.angle_deg);
     regions.angle_sd_deg = angle.map(|angle| angle.angle_sd_deg);
     regions.panels.extend(found.panels.into_iter().enumerate());
@@ -100,22 +95,21 @@ pub fn find(
         regions.chart = Some(chart.corners);
         regions.chart_confidence = Some(chart.confidence);
     }
-    Ok(found.confidence)
+    Ok(found)
 }
 
 /// The fold that agrees better with the panels' corners than the scene's, if the scene's is a fold.
 pub fn other_fold(
-    args: &Args,
     photograph: &Photograph,
     scene: &Scene,
-    (panels, corners_by): (&[Grid], CornersBy),
+    (placed, corners_by): (&Placed, CornersBy),
 ) -> Result<Option<OtherFold>> {
     let Some(fold) = scene.fold_if_one()? else { return Ok(None) };
     let corners = |number: usize| {
-        panels.iter().find(|panel| panel.panel == Some(number)).map(|panel| *panel.outline.corners())
+        placed.grids.iter().find(|panel| panel.panel == Some(number)).map(|panel| *panel.outline.corners())
     };
     let (Some(panel0), Some(panel1)) = (corners(0), corners(1)) else { return Ok(None) };
-    let seen = FoldSeen { corners_by, ..seen(args, photograph, args.placing.lens(photograph)?) };
+    let seen = FoldSeen { corners_by, ..seen(photograph, placed.lens.unwrap_or(LensEstimate::UNKNOWN)) };
     Ok(seen.other_than(&[panel0, panel1], &stated_fold(&fold, scene.angle_sd_deg()?)))
 }
 
@@ -139,8 +133,8 @@ fn draw(
     path: &Path,
     photograph: &Photograph,
     (fold, chart, white): (Option<&DetectedFold>, Option<&DetectedChart>, &[[Point; 4]]),
-    lens: Lens,
 ) -> Result<()> {
+    let lens = fold.map_or(args.placing.lens(photograph)?, |fold| fold.lens).lens;
     let panel = |(number, corners)| {
         let outline = Homography::through(lens, corners)?;
         Ok(Grid::of_panel(number, outline, &[0.0, 1.0], &[0.0, 1.0]))

@@ -31,12 +31,12 @@ pub fn print(args: &Args, images: &[PathBuf], reading: &Reading, out: &mut Outpu
     };
     let photograph = reading.open(path)?;
     let lens = args.placing.lens(&photograph)?;
-    let found = finding::line(args, path, &photograph, lens, &find_all(&photograph, &lens))?;
+    let found = finding::line(path, &photograph, &find_all(&photograph, &lens))?;
     // everything else remains as the person marked it
     let around = |clicks| {
         let fold = find_fold_around(&photograph, &lens, clicks);
         let found = Detections { fold, chart: None, white_candidates: Vec::new() };
-        finding::line(args, path, &photograph, lens, &found)
+        finding::line(path, &photograph, &found)
     };
     let files = [
         ServedFile { name: "", media_type: "text/html; charset=utf-8", bytes: PAGE.into() },

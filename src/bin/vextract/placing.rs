@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use clap::Args;
-use vfold::image::{Grid, Lens, Photograph, REFINED_WITHIN_PX, Refinement, refine};
+use vfold::image::{Grid, Lens, LensEstimate, Photograph, REFINED_WITHIN_PX, Refinement, refine};
 use vfold::scene::MarkedPanels;
 use vfold::{Error, Result, cli};
 
@@ -17,7 +17,7 @@ pub struct PlacingArgs {
     #[arg(long, conflicts_with = "refine")]
     exact_corners: bool,
     /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the
-    /// shorter side
+    /// shorter side [default: K1 by the bend of the panels' outer sides, unless corners are exact]
     #[arg(long, value_name = "K1,K2", value_parser = coefficients, allow_hyphen_values = true)]
     distortion: Option<[f64; 2]>,
 }
@@ -26,8 +26,14 @@ pub struct PlacingArgs {
 pub struct Placed {
     pub grids: Vec<Grid>,
     pub refinement: Option<Refinement>,
-    pub distortion: Option<[f64; 2]>,
-    pub lens: Lens,
+    /// The lens, if anything is known of it.
+    pub lens: Option<LensEstimate>,
+}
+
+impl Placed {
+    pub fn lens(&self) -> Lens {
+        self.lens.map_or(Lens::STRAIGHT, |known| known.lens)
+    }
 }
 
 impl PlacingArgs {
@@ -53,34 +59,48 @@ impl PlacingArgs {
         self.refine.is_some()
     }
 
-    /// Whether the lens distortion was stated.
-    pub fn is_lens_stated(&self) -> bool {
-        self.distortion.is_some()
-    }
-
-    /// The lens of a photograph.
+    /// The lens of a photograph, if stated.
     ///
     /// # Errors
     /// As [`Lens::new`].
-    pub fn lens(&self, photograph: &Photograph) -> Result<Lens> {
+    pub fn stated_lens(&self, photograph: &Photograph) -> Result<Option<LensEstimate>> {
         let lens = self.distortion.map(|k| Lens::new(k, photograph.width(), photograph.height()));
-        Ok(lens.transpose()?.unwrap_or(Lens::STRAIGHT))
+        Ok(lens.transpose()?.map(LensEstimate::stated))
     }
 
-    /// Panels with these corners, refined unless they are exact, through the lens.
+    /// What is known of the lens before any corners are.
+    ///
+    /// # Errors
+    /// As [`Lens::new`].
+    pub fn lens(&self, photograph: &Photograph) -> Result<LensEstimate> {
+        Ok(self.stated_lens(photograph)?.unwrap_or(LensEstimate::UNKNOWN))
+    }
+
+    /// Panels with these corners, through their lens. Corners that were `found` with a lens are at the edges
+    /// already; others are refined unless they are exact.
     ///
     /// # Errors
     /// As [`PlacingArgs::lens`], [`refine`] and [`MarkedPanels::grids`].
-    pub fn place(&self, photograph: &Photograph, panels: &MarkedPanels) -> Result<Placed> {
-        let lens = self.lens(photograph)?;
-        let refinement =
-            (!self.exact_corners).then(|| refine(photograph, &panels.marked, &lens, self.reach_px()));
+    pub fn place(
+        &self,
+        photograph: &Photograph,
+        panels: &MarkedPanels,
+        found: Option<LensEstimate>,
+    ) -> Result<Placed> {
+        let known = self.lens(photograph)?;
+        let is_placed = self.exact_corners || (found.is_some() && self.refine.is_none());
+        let refinement = (!is_placed).then(|| refine(photograph, &panels.marked, &known, self.reach_px()));
         let refinement = refinement.transpose()?;
-        let grids = match &refinement {
-            Some(refinement) => panels.grids(lens, refinement.panels.iter().copied()),
-            None => panels.grids(lens, panels.marked.iter().map(|panel| panel.corners)),
+        let (corners, lens): (Vec<_>, _) = match &refinement {
+            Some(refinement) => (refinement.panels.clone(), Some(refinement.lens)),
+            None => {
+                let corners = panels.marked.iter().map(|panel| panel.corners);
+                (corners.collect(), found.or(self.stated_lens(photograph)?))
+            }
         };
-        Ok(Placed { grids: grids?, refinement, distortion: self.distortion, lens })
+        let mut placed = Placed { grids: Vec::new(), refinement, lens };
+        placed.grids = panels.grids(placed.lens(), corners)?;
+        Ok(placed)
     }
 }
 

@@ -49,35 +49,31 @@ impl Setup<'_> {
         let args = self.args;
         let mut regions = self.regions.of(path, &photograph)?;
         let stated = !regions.panels.is_empty() || self.scene.fold_if_one()?.is_none();
-        let confidence = if stated {
-            regions.confidence
-        } else {
-            let lens = args.placing.lens(&photograph)?;
-            Some(finding::find(args, path, &photograph, lens, &mut regions)?)
-        };
+        let found = if stated { None } else { Some(finding::find(args, path, &photograph, &mut regions)?) };
+        let confidence = found.map_or(regions.confidence, |found| Some(found.confidence));
         self.calibration.forget_spare(&mut regions);
         let panels = MarkedPanels::new(&self.panels, &regions.panels)?;
-        let placed = args.placing.place(&photograph, &panels)?;
+        let placed = args.placing.place(&photograph, &panels, found.map(|found| found.lens))?;
         let corners_by = if confidence.is_some() { CornersBy::Finding } else { CornersBy::Hand };
-        let other_fold = finding::other_fold(args, &photograph, self.scene, (&placed.grids, corners_by))?;
+        let other_fold = finding::other_fold(&photograph, self.scene, (&placed, corners_by))?;
         let margin = args.regions.margin;
         let MeasuredPanels { facets: mut measured, pixels_sharing_noise, processing } =
             measure_panels(&photograph, &placed.grids, margin)?;
         if let Some(sight) = &self.sight {
-            let hidden = panels.hidden(sight, &placed.grids, placed.lens);
+            let hidden = panels.hidden(sight, &placed.grids, placed.lens());
             let of_hidden = measured.iter_mut().zip(hidden).filter(|(_, hidden)| *hidden);
             of_hidden.for_each(|(facet, _)| *facet = FacetMeasurement::unseen());
         }
         let mut facets = panels.in_scene(measured, self.facet_count);
         let mut grids = placed.grids.clone();
-        grids.extend(self.calibration.grid(&regions, placed.lens)?);
+        grids.extend(self.calibration.grid(&regions, placed.lens())?);
         let balance = balance::of_scene(self.scene, &photograph);
         args.pictures.overlay(path, &photograph, &grids, &facets, &balance)?;
         if facets.iter().all(|facet| facet.mean.is_none()) {
             return Err(numbers::none_usable(path, photograph.info(), &facets));
         }
-        let paper = self.calibration.paper(self.scene, &regions, placed.lens, path, &photograph)?;
-        let calibrated = self.calibrated(&regions, placed.lens, path, &photograph)?;
+        let paper = self.calibration.paper(self.scene, &regions, placed.lens(), path, &photograph)?;
+        let calibrated = self.calibrated(&regions, placed.lens(), path, &photograph)?;
         let mut sample = Sample::new(&self.id, &name(path))?;
         if let Some(exposure) = self.calibration.exposure {
             sample.fields.set("exposure", exposure)?;
@@ -98,7 +94,7 @@ impl Setup<'_> {
             .with_processing(processing)
             .with_open_sides(self.open_sides(&photograph, &placed.grids)?)
             .with_other_fold(other_fold)
-            .with_placing(placed.distortion, placed.refinement.as_ref())
+            .with_placing(placed.lens.map(|known| known.lens), placed.refinement.as_ref())
             .with_confidence(confidence);
         sample.set_photograph(&image, &facets)?;
         if let Some(refinement) = &placed.refinement {

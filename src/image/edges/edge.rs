@@ -38,6 +38,15 @@ pub(in crate::image) const MOST_OF_PIECE: f64 = 60.0;
 /// A side votes against a blur by at most this fraction of its support for the best one.
 const MOST_AGAINST: f64 = 0.25;
 
+/// What an edge looks like in the picture.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EdgeModel {
+    /// The picture's blur, by number.
+    pub blur: usize,
+    /// Largest penalty of a piece for a line, in log likelihood.
+    pub most_of_piece: f64,
+}
+
 /// Position of the edge at a side: its distances from the side's two ends, px, as a normal distribution.
 #[derive(Debug, Clone)]
 pub(in crate::image) struct Edge {
@@ -71,6 +80,11 @@ impl Side {
         Vector2::new(-self.along.y, self.along.x)
     }
 
+    /// How far `to` is beyond `from` in that direction, px.
+    pub fn across_px(&self, from: Point, to: Point) -> f64 {
+        Vector2::new(to.x - from.x, to.y - from.y).dot(&self.across())
+    }
+
     /// Evidence of the pixels within `reach_px` of the side for an edge, under each of the blurs. `inner`: a
     /// point on the sheet, if the sheet ends at this side; `most_of_piece`: largest penalty of a piece for a
     /// line, in log likelihood.
@@ -84,26 +98,72 @@ impl Side {
         most_of_piece: f64,
     ) -> Look {
         let pieces = self.pieces(photograph, lens, reach_px);
-        let inwards = inner.map(|inner| {
-            Vector2::new(inner.x - self.from.x, inner.y - self.from.y).dot(&self.across()).signum()
-        });
+        let inwards = inner.map(|inner| self.inwards(inner));
         let of_blur = |blur: &usize| {
-            let of_piece = |piece: &Piece| {
-                let gains = piece.gains(&self.across(), *blur, reach_px, reach_px + FLANK_PX);
-                let most = gains.iter().copied().fold(0.0, f64::max);
-                let gains = gains.map(|gain| gain.max(most - most_of_piece));
-                let breaks = inwards.map_or([0.0; PLACES], |inwards| piece.breaks(inwards, reach_px, *blur));
-                let whole = |place: usize| gains[place] - breaks[place].min(2.0 * most_of_piece);
-                ((piece.place, gains), (piece.place, std::array::from_fn(whole)))
-            };
-            let (steps, whole): (Vec<_>, Vec<_>) = pieces.iter().map(of_piece).unzip();
+            let gains = self.gains(&pieces, inwards, reach_px, EdgeModel { blur: *blur, most_of_piece });
             let likelihoods =
                 |gains: &[_]| -> Vec<f64> { lines().map(|line| log_likelihood(gains, line)).collect() };
             // a single blur needs no vote
-            let says = if blurs.len() > 1 { greatest(&likelihoods(&steps)) } else { 0.0 };
-            Blurred { blur: *blur, says, likelihoods: likelihoods(&whole) }
+            let says = if blurs.len() > 1 { greatest(&likelihoods(&gains.steps)) } else { 0.0 };
+            Blurred { blur: *blur, says, likelihoods: likelihoods(&gains.whole) }
         };
         Look { reach_px, ends_here: inner.is_some(), blurred: blurs.iter().map(of_blur).collect() }
+    }
+
+    /// Distance of the edge's middle from the line between its ends, px, in the direction of
+    /// [`across`](Self::across), and its standard deviation, if there is an edge within `reach_px` that ends
+    /// the sheet, on which `inner` is.
+    pub fn bend_px(
+        &self,
+        photograph: &Photograph,
+        lens: &Lens,
+        (reach_px, inner): (f64, Point),
+        model: EdgeModel,
+    ) -> Option<[f64; 2]> {
+        let pieces = self.pieces(photograph, lens, reach_px);
+        let straight = self.gains(&pieces, Some(self.inwards(inner)), reach_px, model).whole;
+        let likelihood = |bend: usize| {
+            let bent = straight.iter().map(|(place, gains)| (*place, moved(gains, bend, *place)));
+            let bent: Vec<_> = bent.collect();
+            lines().map(|line| log_likelihood(&bent, line)).fold(0.0, f64::max)
+        };
+        let likelihoods: [f64; PLACES] = std::array::from_fn(likelihood);
+        let gain = greatest(&likelihoods);
+        let weight = |bend: usize| (likelihoods[bend] - gain).exp();
+        let mean_of = |value: &dyn Fn(f64) -> f64| {
+            let bends = || (0..PLACES).map(|bend| (offset(bend, reach_px), weight(bend)));
+            bends().map(|(bend_px, weight)| weight * value(bend_px)).sum::<f64>()
+                / bends().map(|(_, weight)| weight).sum::<f64>()
+        };
+        let mean = mean_of(&|bend_px| bend_px);
+        let step_px = offset(1, reach_px) - offset(0, reach_px);
+        let variance = mean_of(&|bend_px| (bend_px - mean).powi(2)) + step_px * step_px / 12.0;
+        (gain >= LEAST_GAIN).then(|| [mean, (variance + STEP_SD_PX.powi(2)).sqrt()])
+    }
+
+    /// Whether `inner` lies in the direction of [`across`](Self::across), 1, or the opposite one, -1.
+    fn inwards(&self, inner: Point) -> f64 {
+        self.across_px(self.from, inner).signum()
+    }
+
+    /// Gains of an edge at each place of each piece.
+    fn gains(
+        &self,
+        pieces: &[Piece],
+        inwards: Option<f64>,
+        reach_px: f64,
+        EdgeModel { blur, most_of_piece }: EdgeModel,
+    ) -> Gains {
+        let of_piece = |piece: &Piece| {
+            let gains = piece.gains(&self.across(), blur, reach_px, reach_px + FLANK_PX);
+            let most = gains.iter().copied().fold(0.0, f64::max);
+            let gains = gains.map(|gain| gain.max(most - most_of_piece));
+            let breaks = inwards.map_or([0.0; PLACES], |inwards| piece.breaks(inwards, reach_px, blur));
+            let whole = |place: usize| gains[place] - breaks[place].min(2.0 * most_of_piece);
+            ((piece.place, gains), (piece.place, std::array::from_fn(whole)))
+        };
+        let (steps, whole) = pieces.iter().map(of_piece).unzip();
+        Gains { steps, whole }
     }
 
     fn pieces(&self, photograph: &Photograph, lens: &Lens, reach_px: f64) -> Vec<Piece> {
@@ -142,6 +202,15 @@ impl Side {
         let p = self.along * along + self.across() * across;
         Point::new(self.from.x + p.x, self.from.y + p.y)
     }
+}
+
+/// Gains in log likelihood of an edge at each place over smooth light, for each piece of a side with its
+/// position along it.
+struct Gains {
+    /// Of a step or kink.
+    steps: Vec<(f64, [f64; PLACES])>,
+    /// The same for a sheet that continues up to there.
+    whole: Vec<(f64, [f64; PLACES])>,
 }
 
 /// Evidence of the pixels near a side for an edge.
@@ -218,12 +287,25 @@ fn elsewhere(likelihoods: &[f64], greatest: f64, reach_px: f64) -> f64 {
 /// Gain over smooth light of the edge that crosses the side's ends at two places, summed over all pieces.
 fn log_likelihood(gains: &[(f64, [f64; PLACES])], [from, to]: [usize; 2]) -> f64 {
     let of_piece = |(place, gains): &(f64, [f64; PLACES])| {
-        let crossing = from as f64 + (to as f64 - from as f64) * place;
-        let below = (crossing as usize).min(PLACES - 2);
-        let part = crossing - below as f64;
-        gains[below] * (1.0 - part) + gains[below + 1] * part
+        between(gains, from as f64 + (to as f64 - from as f64) * place)
     };
     gains.iter().map(of_piece).sum()
+}
+
+/// Gains of a piece at this position along a side, at places along a parabola whose middle is at the place
+/// `bend` instead of the side itself.
+fn moved(gains: &[f64; PLACES], bend: usize, position: f64) -> [f64; PLACES] {
+    let middle = bend as f64 - (PLACES / 2) as f64;
+    let by = 4.0 * position * (1.0 - position) * middle;
+    std::array::from_fn(|place| between(gains, place as f64 + by))
+}
+
+/// Gain at a fractional place; beyond the reach as at its end.
+fn between(gains: &[f64; PLACES], place: f64) -> f64 {
+    let place = place.clamp(0.0, (PLACES - 1) as f64);
+    let below = (place as usize).min(PLACES - 2);
+    let part = place - below as f64;
+    gains[below] * (1.0 - part) + gains[below + 1] * part
 }
 
 impl Edge {

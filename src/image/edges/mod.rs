@@ -1,5 +1,6 @@
 //! Edges in the picture, and the corners between them.
 
+mod bend;
 mod edge;
 mod fit;
 mod piece;

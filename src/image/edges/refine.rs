@@ -9,10 +9,11 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::edge::{Edge, Look, Side, common_blur};
+use super::bend::{StraightSide, straightening_lens};
+use super::edge::{Edge, EdgeModel, Look, Side, common_blur};
 use super::piece::BLURS;
 use crate::image::photograph::Photograph;
-use crate::image::placing::{Homography, Lens, Point};
+use crate::image::placing::{Homography, LensEstimate, Point};
 use crate::{Error, Result};
 
 /// Position of a panel in the picture, and the corners that it shares.
@@ -35,22 +36,28 @@ pub struct Refinement {
     pub moved_px: Vec<[f64; 4]>,
     /// Sides at which no edge was found: they moved only with their neighbours.
     pub sides_without_edge: Vec<String>,
+    /// The lens: as known before, and by the bend of the panels' outer sides.
+    pub lens: LensEstimate,
 }
 
-/// A side: its name, the corners that it joins, and another corner of its panel if there is no sheet beyond
-/// it.
+/// A side: its name, the corners that it joins, another corner of its panel if there is no sheet beyond it,
+/// and whether it is straight however the sheet bows.
 struct Ends {
     name: String,
     from: usize,
     to: usize,
     inner: Option<usize>,
+    is_straight: bool,
 }
 
 /// The sides of a panel from corner to corner.
 const SIDES: [&str; 4] = ["crease", "end 1", "outer side", "end 0"];
+const OUTER: usize = 2;
 
 /// Each side moves the ends of others, so all are examined again in every round.
 const ROUNDS: usize = 6;
+/// The lens is determined after these rounds, the last of which follows.
+const OF_LENS: [usize; 2] = [1, 3];
 /// Each round searches a range this much narrower than the one before, and more finely,
 const NEARER: f64 = 0.4;
 /// but not narrower than this many standard deviations.
@@ -63,7 +70,7 @@ pub const REFINED_WITHIN_PX: f64 = 6.0;
 ///
 /// # Arguments
 /// - `panels`: their positions in the picture, and the corners that they share.
-/// - `lens`: distortion of the picture.
+/// - `lens`: distortion of the picture, as known; the bend of the panels' outer sides adds to it.
 /// - `reach_px`: search distance from each stated side, above 0.
 ///
 /// # Errors
@@ -72,7 +79,7 @@ pub const REFINED_WITHIN_PX: f64 = 6.0;
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Lens, Marked, Photograph, Point, ReadOptions, refine, write_linear};
+/// use vfold::image::{LensEstimate, Marked, Photograph, Point, ReadOptions, refine, write_linear};
 /// let folder = tempfile::tempdir().unwrap();
 /// let path = folder.path().join("card.exr");
 /// let card =
@@ -81,12 +88,18 @@ pub const REFINED_WITHIN_PX: f64 = 6.0;
 /// write_linear(&path, 100, 100, &rgb)?;
 /// let clicked = [(22.0, 28.0), (78.0, 31.0), (81.0, 72.0), (19.0, 69.0)].map(|(x, y)| Point::new(x, y));
 /// let clicked = Marked { panel: 0, corners: clicked, joints: [0, 1, 2, 3] };
-/// let found = refine(&Photograph::open(&path, &ReadOptions::default())?, &[clicked], &Lens::STRAIGHT, 5.0)?;
+/// let photograph = Photograph::open(&path, &ReadOptions::default())?;
+/// let found = refine(&photograph, &[clicked], &LensEstimate::UNKNOWN, 5.0)?;
 /// let corner = found.panels[0][0];
 /// assert!((corner.x - 20.0).hypot(corner.y - 30.0) < 0.2, "{corner:?}");
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px: f64) -> Result<Refinement> {
+pub fn refine(
+    photograph: &Photograph,
+    panels: &[Marked],
+    lens: &LensEstimate,
+    reach_px: f64,
+) -> Result<Refinement> {
     refine_in_sight(photograph, panels, (lens, reach_px), None, f64::INFINITY)
 }
 
@@ -95,7 +108,7 @@ pub fn refine(photograph: &Photograph, panels: &[Marked], lens: &Lens, reach_px:
 pub(in crate::image) fn refine_in_sight(
     photograph: &Photograph,
     panels: &[Marked],
-    within: (&Lens, f64),
+    within: (&LensEstimate, f64),
     blur: Option<usize>,
     most_of_piece: f64,
 ) -> Result<Refinement> {
@@ -111,6 +124,7 @@ pub(in crate::image) fn refine_in_sight(
         moved_px: panels.iter().zip(&settled.panels).map(moved).collect(),
         sides_without_edge: without.collect(),
         panels: settled.panels,
+        lens: settled.lens,
     })
 }
 
@@ -125,6 +139,8 @@ pub(in crate::image) struct Settled {
     pub edges: Vec<Option<Edge>>,
     /// Number of the picture's blur; none after no round.
     pub blur: Option<usize>,
+    /// The lens.
+    pub lens: LensEstimate,
 }
 
 /// As [`refine_in_sight`], for this many rounds and with all intermediate results; `blur` is the picture's,
@@ -132,13 +148,14 @@ pub(in crate::image) struct Settled {
 pub(in crate::image) fn settle(
     photograph: &Photograph,
     panels: &[Marked],
-    (lens, reach_px): (&Lens, f64),
+    (known_lens, reach_px): (&LensEstimate, f64),
     (rounds, blur): (usize, Option<usize>),
     most_of_piece: f64,
 ) -> Result<Settled> {
-    panels.iter().try_for_each(|panel| Homography::through(*lens, panel.corners).map(drop))?;
+    panels.iter().try_for_each(|panel| Homography::through(known_lens.lens, panel.corners).map(drop))?;
     let joined = joined(panels, reach_px)?;
-    let marked: Vec<Point> = joined.iter().map(|corner| lens.undistort(*corner)).collect();
+    let mut lens = *known_lens;
+    let mut marked: Vec<Point> = joined.iter().map(|corner| lens.lens.undistort(*corner)).collect();
     let sides = sides(panels);
     let mut corners = marked.clone();
     let mut reaches = vec![reach_px; sides.len()];
@@ -154,7 +171,7 @@ pub(in crate::image) fn settle(
                 None => (0..BLURS).collect(),
             };
             let side = Side::new(corners[side.from], corners[side.to]);
-            side.look(photograph, lens, *reach, inner, &blurs, most_of_piece)
+            side.look(photograph, &lens.lens, *reach, inner, &blurs, most_of_piece)
         };
         let looks: Vec<Look> = sides.par_iter().zip(&reaches).map(look).collect();
         let blur = *known_blur.get_or_insert_with(|| common_blur(&looks));
@@ -167,9 +184,27 @@ pub(in crate::image) fn settle(
         if round == 0 {
             first_edges.clone_from(&edges);
         }
+        if lens.is_uncertain() && OF_LENS.contains(&round) {
+            let straight: Vec<StraightSide> =
+                sides.iter().filter_map(|side| side.if_straight(&corners)).collect();
+            let (now, bend_px) =
+                straightening_lens(photograph, &lens, &straight, EdgeModel { blur, most_of_piece });
+            let seen_anew = |place: &mut Point| *place = now.lens.undistort(lens.lens.distort(*place));
+            marked.iter_mut().chain(&mut corners).for_each(seen_anew);
+            reaches.iter_mut().for_each(|reach| *reach = reach.max(bend_px));
+            lens = now;
+        }
     }
-    let panels = panels.iter().map(|panel| panel.joints.map(|corner| lens.distort(corners[corner])));
-    Ok(Settled { panels: panels.collect(), first_edges, edges, blur: known_blur })
+    let panels = panels.iter().map(|panel| panel.joints.map(|corner| lens.lens.distort(corners[corner])));
+    Ok(Settled { panels: panels.collect(), first_edges, edges, blur: known_blur, lens })
+}
+
+impl Ends {
+    /// The side as one that a lens alone bends, if it is.
+    fn if_straight(&self, corners: &[Point]) -> Option<StraightSide> {
+        let inner = self.inner.filter(|_| self.is_straight)?;
+        Some(StraightSide { ends: [corners[self.from], corners[self.to]], inner: corners[inner] })
+    }
 }
 
 /// The sides of panels, a shared one once.
@@ -188,7 +223,8 @@ fn sides(panels: &[Marked]) -> Vec<Ends> {
         let of_panel =
             if one_crease && k == 0 { String::new() } else { format!(" of panel {}", panel.panel) };
         let inner = (k != 0).then_some(panel.joints[(k + 2) % 4]);
-        sides.push(Ends { name: format!("{}{of_panel}", SIDES[k]), from, to, inner });
+        let name = format!("{}{of_panel}", SIDES[k]);
+        sides.push(Ends { name, from, to, inner, is_straight: k == OUTER });
     }
     sides
 }

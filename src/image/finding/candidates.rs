@@ -9,7 +9,7 @@ use super::search::{Hypothesis, Views, search};
 use super::tree::CLUES;
 use crate::image::edges::{Edge, MOST_OF_PIECE, Marked, Settled, settle};
 use crate::image::photograph::Photograph;
-use crate::image::placing::{Lens, Point};
+use crate::image::placing::{Lens, LensEstimate, Point};
 
 /// Hypotheses that are examined closely.
 const TRIED: usize = 4;
@@ -76,8 +76,14 @@ impl Refined {
     fn of(hypothesis: &Hypothesis, views: &Views, picture: &Photograph, blur: Option<usize>) -> Option<Self> {
         let reach_px = (REACH * hypothesis.outline.size_px()).clamp(REACH_PX[0], REACH_PX[1]);
         let marked = hypothesis.outline.marked();
-        let Settled { panels, first_edges, edges, blur } =
-            settle(picture, &marked, (&Lens::STRAIGHT, reach_px), (ROUNDS, blur), MOST_OF_PIECE).ok()?;
+        let Settled { panels, first_edges, edges, blur, .. } = settle(
+            picture,
+            &marked,
+            (&LensEstimate::stated(Lens::STRAIGHT), reach_px),
+            (ROUNDS, blur),
+            MOST_OF_PIECE,
+        )
+        .ok()?;
         let outline = Outline::of_panels([panels[0], panels[1]]);
         outline.may_be_fold().then(|| Self {
             now: views.judge(&outline),

@@ -40,7 +40,7 @@ mod white;
 
 use super::edges::{MOST_OF_PIECE, refine_in_sight};
 use super::photograph::Photograph;
-use super::placing::{Lens, Point};
+use super::placing::{LensEstimate, Point};
 use candidates::{Candidate, candidates};
 pub use chart::{DetectedChart, find_chart, weighed_chart};
 use outline::{Outline, Place};
@@ -55,6 +55,8 @@ pub struct DetectedFold {
     /// [`PANEL_CORNERS`](crate::image::PANEL_CORNERS). If the crease is upright, end 0 is at the bottom and
     /// panel 0 on the left; if it is level, panel 0 is the lower one.
     pub panels: [[Point; 4]; 2],
+    /// The lens: as known before, and by the bend of the panels' outer sides.
+    pub lens: LensEstimate,
     /// Probability that all six corners are within 3 % of a panel's side of their true positions.
     pub confidence: f64,
 }
@@ -96,14 +98,14 @@ const LEAST_REACH_PX: f64 = 4.0;
 /// Finds the fold in a photograph.
 ///
 /// # Arguments
-/// - `lens`: distortion of the picture; without it the fold's sides are straight.
+/// - `lens`: distortion of the picture, as known.
 ///
 /// # Errors
 /// [`NoFold`] if there is not even a guess.
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Lens, NoFold, Photograph, find_fold};
+/// use vfold::image::{LensEstimate, NoFold, Photograph, find_fold};
 /// // on a dark table, a sheet with a level crease, which is brighter there and more of its colour
 /// let lit = |reflectance: f32, y: usize| {
 ///     reflectance * (0.5 + reflectance * (-(y as f32 + 0.5 - 100.0).abs() / 30.0).exp())
@@ -112,15 +114,15 @@ const LEAST_REACH_PX: f64 = 4.0;
 /// let light =
 ///     |x, y| [0.7, 0.5, 0.3].map(|reflectance| if inside(x, y) { lit(reflectance, y) } else { 0.1 });
 /// let light = (0..240 * 200).flat_map(|k| light(k % 240, k / 240)).collect();
-/// let found = find_fold(&Photograph::from_light(240, 200, light)?, &Lens::STRAIGHT).unwrap();
+/// let found = find_fold(&Photograph::from_light(240, 200, light)?, &LensEstimate::UNKNOWN).unwrap();
 /// let [x, y] = [found.panels[0][2].x, found.panels[0][2].y]; // outer end 1 of the lower panel
 /// assert!((x - 60.0).hypot(y - 160.0) < 2.0, "{x} {y}");
 ///
 /// let empty = Photograph::from_light(240, 200, vec![0.1; 240 * 200])?;
-/// assert_eq!(find_fold(&empty, &Lens::STRAIGHT), Err(NoFold::Nothing));
+/// assert_eq!(find_fold(&empty, &LensEstimate::UNKNOWN), Err(NoFold::Nothing));
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<DetectedFold, NoFold> {
+pub fn find_fold(photograph: &Photograph, lens: &LensEstimate) -> Result<DetectedFold, NoFold> {
     most_probable(photograph, &Reduced::of(photograph), lens, LEAST_CONFIDENCE, |_| true)
 }
 
@@ -131,14 +133,14 @@ pub fn find_fold(photograph: &Photograph, lens: &Lens) -> Result<DetectedFold, N
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Lens, NoFold, Photograph, find_fold_and_chart};
+/// use vfold::image::{LensEstimate, NoFold, Photograph, find_fold_and_chart};
 /// let empty = Photograph::from_light(240, 200, vec![0.1; 240 * 200])?;
-/// assert_eq!(find_fold_and_chart(&empty, &Lens::STRAIGHT), (Err(NoFold::Nothing), None));
+/// assert_eq!(find_fold_and_chart(&empty, &LensEstimate::UNKNOWN), (Err(NoFold::Nothing), None));
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn find_fold_and_chart(
     photograph: &Photograph,
-    lens: &Lens,
+    lens: &LensEstimate,
 ) -> (Result<DetectedFold, NoFold>, Option<DetectedChart>) {
     both(photograph, &Reduced::of(photograph), lens)
 }
@@ -146,11 +148,11 @@ pub fn find_fold_and_chart(
 fn both(
     photograph: &Photograph,
     reduced: &Reduced,
-    lens: &Lens,
+    lens: &LensEstimate,
 ) -> (Result<DetectedFold, NoFold>, Option<DetectedChart>) {
     rayon::join(
         || most_probable(photograph, reduced, lens, LEAST_CONFIDENCE, |_| true),
-        || chart::most_alike(photograph, reduced, lens).map(|(chart, _)| chart),
+        || chart::most_alike(photograph, reduced, &lens.lens).map(|(chart, _)| chart),
     )
 }
 
@@ -170,16 +172,16 @@ pub struct Detections {
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Lens, NoFold, Photograph, find_all};
+/// use vfold::image::{LensEstimate, NoFold, Photograph, find_all};
 /// let card = |x: usize, y: usize| (60..120).contains(&x) && (40..100).contains(&y);
 /// let light = (0..240 * 200).map(|k| if card(k % 240, k / 240) { 0.8 } else { 0.1 }).collect();
-/// let found = find_all(&Photograph::from_light(240, 200, light)?, &Lens::STRAIGHT);
+/// let found = find_all(&Photograph::from_light(240, 200, light)?, &LensEstimate::UNKNOWN);
 /// assert!(found.fold == Err(NoFold::Nothing) && found.chart.is_none());
 /// assert!(found.white_candidates[0].iter().all(|corner| card(corner.x as usize, corner.y as usize)));
 /// # Ok::<(), vfold::Error>(())
 /// ```
 #[must_use]
-pub fn find_all(photograph: &Photograph, lens: &Lens) -> Detections {
+pub fn find_all(photograph: &Photograph, lens: &LensEstimate) -> Detections {
     let reduced = Reduced::of(photograph);
     let (fold, chart) = both(photograph, &reduced, lens);
     let chart = chart.filter(DetectedChart::is_sure);
@@ -197,15 +199,15 @@ pub fn find_all(photograph: &Photograph, lens: &Lens) -> Detections {
 ///
 /// # Example
 /// ```
-/// use vfold::image::{Lens, NoFold, Photograph, Point, find_fold_around};
+/// use vfold::image::{LensEstimate, NoFold, Photograph, Point, find_fold_around};
 /// let empty = Photograph::from_light(240, 200, vec![0.1; 240 * 200])?;
 /// let clicks = [Point::new(60.0, 40.0), Point::new(120.0, 90.0)];
-/// assert_eq!(find_fold_around(&empty, &Lens::STRAIGHT, clicks), Err(NoFold::Nothing));
+/// assert_eq!(find_fold_around(&empty, &LensEstimate::UNKNOWN, clicks), Err(NoFold::Nothing));
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn find_fold_around(
     photograph: &Photograph,
-    lens: &Lens,
+    lens: &LensEstimate,
     panels: [Point; 2],
 ) -> Result<DetectedFold, NoFold> {
     let reduced = Reduced::of(photograph);
@@ -216,7 +218,7 @@ pub fn find_fold_around(
 fn most_probable(
     photograph: &Photograph,
     reduced: &Reduced,
-    lens: &Lens,
+    lens: &LensEstimate,
     least_confidence: f64,
     may_be: impl Fn(&Outline) -> bool,
 ) -> Result<DetectedFold, NoFold> {
@@ -237,9 +239,10 @@ fn most_probable(
     let blur = blur.filter(|_| reduced.scale == 1); // known of the picture itself
     let within = (lens, reach_px);
     let refined = refine_in_sight(photograph, &outline.marked(), within, blur, MOST_OF_PIECE).ok();
-    let exact = refined.map(|refined| Outline::of_panels([refined.panels[0], refined.panels[1]]));
-    let exact = exact.filter(Outline::may_be_fold).unwrap_or(outline);
-    Ok(DetectedFold { panels: exact.points(), confidence })
+    let exact =
+        refined.map(|refined| (Outline::of_panels([refined.panels[0], refined.panels[1]]), refined.lens));
+    let (exact, lens) = exact.filter(|(exact, _)| exact.may_be_fold()).unwrap_or((outline, *lens));
+    Ok(DetectedFold { panels: exact.points(), lens, confidence })
 }
 
 /// The least distance of a corner from the edge of the reduced picture, px, negative beyond it.
@@ -282,7 +285,7 @@ mod tests {
     use super::*;
 
     fn found(fold: &Outline, scale: usize) -> DetectedFold {
-        find_fold(&picture(fold, scale), &Lens::STRAIGHT).unwrap()
+        find_fold(&picture(fold, scale), &LensEstimate::UNKNOWN).unwrap()
     }
 
     #[test]
@@ -301,7 +304,7 @@ mod tests {
             let mean = |of: fn(&Point) -> f64| panel.iter().map(of).sum::<f64>() / 4.0;
             Point::new(mean(|p| p.x), mean(|p| p.y))
         });
-        let around = |panels| find_fold_around(&photograph, &Lens::STRAIGHT, panels);
+        let around = |panels| find_fold_around(&photograph, &LensEstimate::UNKNOWN, panels);
         assert_eq!(around([b, a]).unwrap().panels, found(&outline(), 2).panels);
         assert!(around([a, a]).is_err());
     }
@@ -318,7 +321,7 @@ mod tests {
     #[test]
     fn a_fold_cut_by_the_edge_is_not_claimed() {
         let cut = Outline(outline().0.map(|p| p - Place::new(72.0, 0.0)));
-        let found = find_fold(&picture(&cut, 1), &Lens::STRAIGHT);
+        let found = find_fold(&picture(&cut, 1), &LensEstimate::UNKNOWN);
         assert!(!found.is_ok_and(|found| found.is_sure()), "{found:?}");
     }
 
@@ -329,6 +332,6 @@ mod tests {
         let light = |x: usize, y: usize| if inside(x, y) { 0.5 + 0.001 * x as f32 } else { 0.1 };
         let light = (0..WIDTH * HEIGHT).map(|k| light(k % WIDTH, k / WIDTH)).collect();
         let sheet = Photograph::from_light(WIDTH, HEIGHT, light).unwrap();
-        assert!(!find_fold(&sheet, &Lens::STRAIGHT).is_ok_and(|found| found.is_sure()));
+        assert!(!find_fold(&sheet, &LensEstimate::UNKNOWN).is_ok_and(|found| found.is_sure()));
     }
 }

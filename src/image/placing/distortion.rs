@@ -62,6 +62,20 @@ impl Lens {
         }
     }
 
+    /// The same lens with more distortion, by k1, for a picture of `width` x `height` px.
+    ///
+    /// # Errors
+    /// As [`Lens::new`].
+    pub(in crate::image) fn with_k1_more(&self, k1: f64, [width, height]: [usize; 2]) -> Result<Self> {
+        Self::new([self.k1 + k1, self.k2], width, height)
+    }
+
+    /// The coefficients k1 and k2.
+    #[must_use]
+    pub fn coefficients(&self) -> [f64; 2] {
+        [self.k1, self.k2]
+    }
+
     /// Whether straight lines stay straight.
     #[must_use]
     pub fn is_straight(&self) -> bool {

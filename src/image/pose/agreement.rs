@@ -58,7 +58,7 @@ impl FoldSeen {
     /// # Example
     /// ```
     /// use vfold::geometry::{FacetGrid, Fold};
-    /// use vfold::image::{CornersBy, FoldSeen, Point, StatedFold};
+    /// use vfold::image::{CornersBy, FoldSeen, LensEstimate, Point, StatedFold};
     /// let see = |x: f64, y: f64, z: f64| {
     ///     Point::new(320.0 + 900.0 * (x - 0.5) / (6.0 - z), 240.0 - 900.0 * (y - 1.0) / (6.0 - z))
     /// };
@@ -67,7 +67,7 @@ impl FoldSeen {
     /// let seen = FoldSeen {
     ///     size: [640, 480],
     ///     corners_by: CornersBy::Hand,
-    ///     lens: None,
+    ///     lens: LensEstimate::UNKNOWN,
     ///     focal_35mm: None,
     ///     depths: None,
     /// };

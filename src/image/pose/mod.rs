@@ -19,7 +19,7 @@ pub use agreement::{OtherFold, StatedFold};
 
 use rayon::prelude::*;
 
-use super::placing::{Lens, Point};
+use super::placing::{LensEstimate, Point};
 use fit::Sighting;
 use mixture::{Explanation, Mean, mean};
 use outline::Outline;
@@ -52,8 +52,8 @@ pub struct FoldSeen {
     pub size: [usize; 2],
     /// Origin of the corners.
     pub corners_by: CornersBy,
-    /// The lens, if stated.
-    pub lens: Option<Lens>,
+    /// The lens, as known.
+    pub lens: LensEstimate,
     /// Focal length of equal angle of view on film of 36 x 24 mm, mm, if the camera recorded it.
     pub focal_35mm: Option<f64>,
     /// Depths of both panels relative to their width, if stated.
@@ -79,7 +79,7 @@ impl FoldSeen {
     /// # Example
     /// ```
     /// use vfold::geometry::{FacetGrid, Fold};
-    /// use vfold::image::{CornersBy, FoldSeen, Point};
+    /// use vfold::image::{CornersBy, FoldSeen, LensEstimate, Point};
     /// let fold = Fold::new(50.0, 1.0, 1.0, FacetGrid { rows: 1, cols: 1 })?;
     /// // from (0.5, 1, 6) along -z, the focal length 900 px
     /// let see = |x: f64, y: f64, z: f64| {
@@ -89,7 +89,7 @@ impl FoldSeen {
     /// let seen = FoldSeen {
     ///     size: [640, 480],
     ///     corners_by: CornersBy::Finding,
-    ///     lens: None,
+    ///     lens: LensEstimate::UNKNOWN,
     ///     focal_35mm: None,
     ///     depths: Some([1.0; 2]),
     /// };
@@ -110,13 +110,13 @@ impl FoldSeen {
     }
 
     fn outline(&self, panels: &[[Point; 4]; 2]) -> Option<Outline> {
-        Outline::of(panels, self.lens, self.size.map(|px| px as f64), self.unit_px())
+        Outline::of(panels, &self.lens.lens, self.size.map(|px| px as f64), self.unit_px())
     }
 
     fn known_before(&self, outline: &Outline) -> KnownBefore {
         let diagonal = (self.size[0] as f64).hypot(self.size[1] as f64) / self.unit_px();
         KnownBefore {
-            is_lens_known: self.lens.is_some(),
+            k1_sd: self.lens.k1_sd,
             focal: self.focal_35mm.map(|focal_mm| focal_mm / FILM_DIAGONAL_MM * diagonal),
             usual_focal: FOCAL_MM / FILM_DIAGONAL_MM * diagonal,
             depths: self.depths.map(|depths| outline.in_order(depths)),

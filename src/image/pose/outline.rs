@@ -18,8 +18,7 @@ pub(super) struct Outline {
 impl Outline {
     /// From panels with these corners, px, in a picture of this size; none if the panels are not on opposite
     /// sides of a crease.
-    pub fn of(panels: &[[Point; 4]; 2], lens: Option<Lens>, size: [f64; 2], unit_px: f64) -> Option<Self> {
-        let lens = lens.unwrap_or(Lens::STRAIGHT);
+    pub fn of(panels: &[[Point; 4]; 2], lens: &Lens, size: [f64; 2], unit_px: f64) -> Option<Self> {
         let panels = panels.map(|panel| panel.map(|corner| lens.undistort(corner)));
         let areas = panels.map(|panel| twice_area(panel) / 2.0);
         let is_swapped = areas[0] > 0.0;

@@ -43,10 +43,6 @@ const LN_FOCAL_SD: f64 = 0.8;
 const LN_STATED_FOCAL_SD: f64 = 0.05;
 /// Fraction of pictures cropped after the focal length was recorded.
 const CROPPED_SHARE: f64 = 0.1;
-/// Distortion of an unknown lens: at the middle of the picture's longer sides most are within 2 %.
-const K1_SD: f64 = 0.02;
-/// The same for a stated lens.
-const K1_STATED_SD: f64 = 1e-4;
 /// Error of a panel's depth: sheets are cut and folded by hand.
 const LN_DEPTH_SD: f64 = 0.005;
 /// Depth over width of panels of unknown form: two in three are between a half and two.
@@ -78,8 +74,8 @@ const FORMS: [(f64, f64); 11] = [
 /// Knowledge of a fold and its camera in addition to the corners.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct KnownBefore {
-    /// Whether the lens distortion is known, and corrected.
-    pub is_lens_known: bool,
+    /// Standard deviation of the lens's k1 from that which is corrected.
+    pub k1_sd: f64,
     /// The focal length stated in the file, in the unit of the picture.
     pub focal: Option<f64>,
     /// The focal length of [`FOCAL_MM`], in the unit of the picture.
@@ -118,11 +114,7 @@ pub(super) fn other_than_stated(
 
 /// A form of the panels and its probability, with every focal length.
 fn with_focals(known_before: &KnownBefore, (share, form): (f64, Form), angle: (f64, f64)) -> Vec<Hypothesis> {
-    let k1 = Expected {
-        unknown: K1,
-        mean: 0.0,
-        sd: if known_before.is_lens_known { K1_STATED_SD } else { K1_SD },
-    };
+    let k1 = Expected { unknown: K1, mean: 0.0, sd: known_before.k1_sd };
     let angle = Expected { unknown: ANGLE, mean: angle.0, sd: angle.1 };
     let [depth, ratio] = of_form(form);
     let hypothesis = |(of_focal, focal): (f64, Expected)| Hypothesis {

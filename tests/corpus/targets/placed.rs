@@ -2,8 +2,8 @@
 
 use vfold::calibrate::{Calibration, Patch};
 use vfold::image::{
-    Grid, Homography, Lens, Marked, Photograph, Point, ReadOptions, corner_orders, measure, measure_patches,
-    refine, write_linear,
+    Grid, Homography, Lens, LensEstimate, Marked, Photograph, Point, ReadOptions, corner_orders, measure,
+    measure_patches, refine, write_linear,
 };
 
 use super::drawn::Drawn;
@@ -23,7 +23,9 @@ pub fn refined(bytes: &[u8]) {
         return;
     }
     let reach_px = drawn.one_of(&[6.0, 1.0, 1e-9, 30.0, 100.0]);
-    let Some(found) = taken(refine(&photograph, &panels, &lens, reach_px)) else { return };
+    let Some(found) = taken(refine(&photograph, &panels, &LensEstimate::stated(lens), reach_px)) else {
+        return;
+    };
     assert_finite("moved", found.moved_px.iter().flatten());
     let grids =
         found.panels.iter().map(|corners| Ok(Grid::even(Homography::through(lens, *corners)?, [2, 3])));
