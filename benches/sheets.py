@@ -32,6 +32,13 @@ GIVEN = [
     ("rendered, other grounds", of_real, "ground/*.json", []),
     ("measured materials", of_material, "materials/*.json", ["--exposure", "1"]),
 ]
+# kinds of days among those that others rendered; of the first without a chart alone
+DAYS = [
+    ("clear sky", ["real/all_*.json", "real/more/*.json", "real/pairs/*.json"]),
+    ("haze, thin cloud", ["sky/k02.json", "sky/k06.json", "sky/k08.json"]),
+    ("overcast", ["sky/k01.json", "sky/k03.json", "sky/k05.json", "sky/k07.json"]),
+    ("shade", ["sky/k04.json"]),
+]
 
 
 def simulated(tools, cameras, spec, draw, work):
@@ -113,6 +120,17 @@ def row(tools, name, photographs):
     print(f"| {name} | {len(each)} | {statistics.fmean(each):.4f} | {far} | {within(off)} | {ms:.0f} |", flush=True)
 
 
+def by_day(tools, shared, work):
+    print("\n## By the day\n\n| day | count | RMSE | worst | within |\n|---|---|---|---|---|")
+    for name, patterns in DAYS:
+        sidecars = [sidecar for pattern in patterns for sidecar in sorted(shared.glob(pattern)) if "chart" not in json.loads(sidecar.read_text())["told"]]
+        measurements = [measured(tools, *of_real(tools, sidecar, work), []) for sidecar in sidecars]
+        if measurements:
+            each = [one[0] for one in measurements]
+            off = [z for _, of_one, _ in measurements for z in of_one]
+            print(f"| {name} | {len(each)} | {statistics.fmean(each):.4f} | {max(each):.4f} | {within(off)} |", flush=True)
+
+
 def main(folder, shared, *sets):
     tools, shared = Tools(folder), Path(shared)
     with tempfile.TemporaryDirectory() as work:
@@ -124,6 +142,7 @@ def main(folder, shared, *sets):
         cameras = two_cameras(shared, work)
         for path in map(Path, sets):
             row(tools, path.stem, set_of(tools, cameras, path))
+        by_day(tools, shared, work)
 
 
 if __name__ == "__main__":
