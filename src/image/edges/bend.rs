@@ -4,6 +4,8 @@
 //! lens bends their pictures: by k1, the side's distance from the picture's centre, and the square of the
 //! place along it.
 
+use rayon::prelude::*;
+
 use super::edge::{EdgeModel, Side};
 use crate::image::photograph::Photograph;
 use crate::image::placing::{Lens, LensEstimate, Point};
@@ -35,14 +37,17 @@ pub(super) fn straightening_lens(
     model: EdgeModel,
 ) -> (LensEstimate, f64) {
     let size = [photograph.width(), photograph.height()];
-    let (mut information, mut pull, mut most_px) = (known.k1_sd.powi(-2), 0.0, 0.0_f64);
-    for StraightSide { ends, inner } in sides {
+    let seen = |StraightSide { ends, inner }: &StraightSide| {
         let side = Side::new(ends[0], ends[1]);
         let per_k1 = bend_per_k1(size, &side, *ends);
         let reach_px = (REACH_SDS * known.k1_sd * per_k1.abs()).max(LEAST_REACH_PX);
-        let seen = side.bend_px(photograph, &known.lens, (reach_px, *inner), model);
-        let Some([bend_px, sd_px]) = seen else { continue };
+        let [bend_px, sd_px] = side.bend_px(photograph, &known.lens, (reach_px, *inner), model)?;
         let weight = per_k1 / (sd_px * sd_px + (CUT_SD * ends[0].distance(ends[1])).powi(2));
+        Some((per_k1, weight, bend_px))
+    };
+    let seen: Vec<_> = sides.par_iter().filter_map(seen).collect();
+    let (mut information, mut pull, mut most_px) = (known.k1_sd.powi(-2), 0.0, 0.0_f64);
+    for (per_k1, weight, bend_px) in seen {
         information += weight * per_k1;
         pull += weight * bend_px;
         most_px = most_px.max(bend_px.abs());
