@@ -87,34 +87,39 @@ fn a_light_that_is_stated_wrongly_is_named_by_a_known_fold() {
     assert!(!right.iter().any(|sample| because(sample).contains("known fold")));
 }
 
-/// Rendered sheets with a glossy surface, whose light is unknown.
+/// Rendered sheets with a glossy surface, whose light is unknown; the known sheet is folded, or lies flat and
+/// shows the colour of the light alone.
 #[test]
 fn photographs_are_nearer_beside_a_known_fold() {
     let chips = ["orange", "foliage", "blue-flower", "moderate-red", "yellow-green", "neutral-5"];
     let names = chips.map(|chip| format!("cc24:{chip}")).join(" ");
     let run = Workdir::new().sh(&format!(
         "photograph() {{
-            vforward scene.json --reflectance $2 --illuminant D50 \
+            vforward $3.json --reflectance $2 --illuminant D50 \
                 --specular-weight 0.5 --specular-roughness 0.4 --exposure 0.5 --render $1.exr \
                 --render-size 320x240 -o $1.json 2> render.log
-            vextract $1.exr --regions $1.json --scene scene.json --camera canon-5d-mark-ii \
+            vextract $1.exr --regions $1.json --scene $3.json --camera canon-5d-mark-ii \
                 --illuminant unknown -q
         }}
         vkernel -o scene.json
-        photograph card 0.5 > card.ndjson
-        for chip in {chips}; do photograph $chip cc24:$chip; done > sheets.ndjson
+        vkernel --angle-deg 180 -o flat.json
+        photograph card 0.5 scene > card.ndjson
+        photograph paper 0.5 flat > paper.ndjson
+        for chip in {chips}; do photograph $chip cc24:$chip scene; done > sheets.ndjson
         vforward -q scene.json --reflectance {names}
         vestimate -q sheets.ndjson
-        vestimate -q --known-fold card.ndjson=0.5 sheets.ndjson",
+        vestimate -q --known-fold card.ndjson=0.5 sheets.ndjson
+        vestimate -q --known-fold paper.ndjson=0.5 sheets.ndjson",
         chips = chips.join(" ")
     ));
     let all = samples(&run);
     let (truths, estimates) = all.split_at(chips.len());
     let truths = own_truths(truths);
-    let [alone, beside] =
-        [&estimates[..chips.len()], &estimates[chips.len()..]].map(|all| errors(all, &truths));
-    println!("alone {alone:.4?}, beside a known fold {beside:.4?}");
+    let of_run = |n: usize| errors(&estimates[n * chips.len()..][..chips.len()], &truths);
+    let [alone, beside, beside_flat] = [0, 1, 2].map(of_run);
+    println!("alone {alone:.4?}, beside a known fold {beside:.4?}, a flat sheet {beside_flat:.4?}");
     assert!(beside.0 < 0.85 * alone.0 && beside.1 > 0.9, "{alone:?} {beside:?}");
+    assert!(beside_flat.0 < 0.95 * alone.0 && beside_flat.1 > 0.9, "{alone:?} {beside_flat:?}");
 }
 
 /// What cannot be the known fold is refused in a line.

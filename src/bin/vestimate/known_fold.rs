@@ -114,8 +114,11 @@ impl KnownFold {
         let (optics, _) = taken;
         let reflectance = self.spectrum.on(&optics.grid, Outside::Refuse)?;
         let sheet = KnownSheet::new(optics.grid.wavelengths_nm(), &reflectance)?;
+        let is_flat_photograph =
+            self.is_photograph() && FoldSetting::of(&lit).is_ok_and(|setting| setting.fold.is_flat());
         if let SceneMethod::Map(prior) = method
             && self.is_photograph()
+            && !is_flat_photograph
         {
             let parts = self.parts(asked, &lit)?;
             let shown = sheet.in_photograph(&parts, &lights, prior)?;
@@ -125,14 +128,22 @@ impl KnownFold {
             .and_then(|setting| setting.model_to_fit(&asked.fit))
             .map_err(|e| self.at(&e))?;
         let rgb = self.sample.facet_rgb()?;
-        let sd = asked.noise(&self.sample)?.deviations(model.facets(), &rgb).map_err(|e| self.at(&e))?;
+        let sd = if is_flat_photograph {
+            KnownSheet::flat_deviations(&rgb)
+        } else {
+            asked.noise(&self.sample)?.deviations(model.facets(), &rgb).map_err(|e| self.at(&e))?
+        };
         let exposure = asked.exposure_of(&self.sample)?;
         let data = FacetData::new(&model, &Measured { rgb: &rgb, sd: &sd }, exposure, CUTOFF)
             .map_err(|e| self.at(&e))?;
         if lights.is_empty() {
             return Ok((lights, Some(sheet.in_stated_light(&data, others)?)));
         }
-        let (lights, shown) = sheet.weigh(&data, lights)?;
+        let (mut lights, shown) = sheet.weigh(&data, lights)?;
+        if is_flat_photograph {
+            // another picture has another exposure
+            lights.iter_mut().for_each(|light| light.exposure = None);
+        }
         Ok((lights, Some(shown)))
     }
 

@@ -16,12 +16,15 @@ use crate::estimate::data::FacetData;
 use crate::estimate::facets::{Facets, Second};
 use crate::estimate::family::SpectrumModel;
 use crate::estimate::gaussian::Gaussian;
+use crate::estimate::noise::deviations;
+use crate::estimate::photograph::priors::Priors;
 use crate::estimate::photograph::{KnownReflectance, Parts, ShownDaylight};
 use crate::estimate::prior::Prior;
 use crate::estimate::rival::Rival;
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::Normal;
 use crate::estimate::verdict::{Doubt, EXPLAINED};
+use crate::forward::FacetValues;
 use crate::solve::posterior::{Model, Solution, find_mode, first_tempering};
 
 /// Relative error of a reflectance from a bench instrument: instruments of one model agree to 0.4 ΔE*94 on
@@ -144,6 +147,27 @@ impl KnownSheet {
         Ok(Shown { exposure: None, rival: None, scenarios, daylight, rms })
     }
 
+    /// Standard deviations of the facets `rgb` of its photograph if it lay flat: their brightness differs by
+    /// the lens and the table alone, so that together they show one colour, to the accuracy of the camera's
+    /// gains and sensitivities.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::estimate::light::KnownSheet;
+    /// use vfold::forward::FacetValues;
+    /// let colour = nalgebra::RowVector3::new(0.5, 0.4, 0.2);
+    /// let rgb = FacetValues::from(&nalgebra::DMatrix::from_rows(&vec![colour; 100]));
+    /// let sd = KnownSheet::flat_deviations(&rgb);
+    /// let red = sd.facet(0).unwrap()[0] / 0.5;
+    /// assert!((red - 0.25).abs() < 1e-12); // ten times that of their mean
+    /// ```
+    #[must_use]
+    pub fn flat_deviations(rgb: &FacetValues) -> FacetValues {
+        let Priors { gain_sd, sensitivity_sd, .. } = Priors::USUAL;
+        let used = rgb.facets().flatten().count();
+        deviations(rgb, |_| 0.0, gain_sd.hypot(sensitivity_sd) * (used as f64).sqrt())
+    }
+
     fn in_light(&self, data: &FacetData) -> Option<InLight> {
         let model = Facets { data, gaussian: &self.gaussian };
         let start = DVector::zeros(model.unknowns());
@@ -205,9 +229,8 @@ mod tests {
     use crate::camera::CameraResponse;
     use crate::estimate::Exposure;
     use crate::estimate::measured::Measured;
-    use crate::estimate::noise::deviations;
     use crate::estimate::unknowns::SceneModel;
-    use crate::forward::{FacetModel, FacetValues, Lighting};
+    use crate::forward::{FacetModel, Lighting};
     use crate::geometry::{FacetGrid, Fold, Light};
     use crate::kernel::mesh::respond;
     use crate::spectrum::{Outside, WavelengthGrid, camera, equal_candidates, illuminant};
