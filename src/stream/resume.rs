@@ -35,6 +35,12 @@ impl Kept {
         Self { is_unknown: false, ..self }
     }
 
+    /// The same, with the first valid sample recomputed, because the same command may read other files.
+    #[must_use]
+    pub fn to_be_checked(self) -> Self {
+        Self { is_unknown: true, ..self }
+    }
+
     /// Skips the record of a scene.
     ///
     /// # Errors

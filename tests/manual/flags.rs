@@ -11,7 +11,7 @@ const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscor
 
 /// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO`, GNU parallel and
 /// vfold-measure.
-const OTHERS: [&str; 12] = [
+const OTHERS: [&str; 13] = [
     "--bench",
     "--features",
     "--release",
@@ -19,6 +19,7 @@ const OTHERS: [&str; 12] = [
     "--fullpixels",
     "--header",
     "--keep-order",
+    "--mosaic",
     "--pipe",
     "--sshlogin",
     "--subimage",

@@ -84,16 +84,33 @@ fn arrays_plots_and_summaries_are_whole() {
     assert_eq!((run.status, run.stdout.as_str(), run.said_otherwise()), (0, "", Vec::new()));
 }
 
-/// What is there is not made again: a kept estimate that no run would make stays.
+/// What is there is not made again but for the first estimate: another that no run would make stays.
 #[test]
 fn estimates_are_not_made_again() {
     let run = Workdir::new().sh(&format!(
         "{ESTIMATES}
-        sed '2s/\"iterations\":[0-9]*/\"iterations\":4711/' whole.ndjson | head -n 3 > out.ndjson
+        sed '3s/\"iterations\":[0-9]*/\"iterations\":4711/' whole.ndjson | head -n 3 > out.ndjson
         resume || [ $? = 3 ]
         grep -c '\"iterations\":4711' out.ndjson"
     ));
     assert_eq!((run.status, run.stdout.as_str()), (0, "1\n"), "{run:?}");
+}
+
+/// A file that the same command reads may have another content.
+#[test]
+fn a_file_of_other_content_is_another_command() {
+    let run = Workdir::new().sh("vkernel --facets 4x4 -o scene.json
+        light() { vforward -q scene.json --noise-sd 1e-3 --illuminant \"$@\"; }
+        light FL2 --reflectance cc24:red cc24:green > sheets.ndjson
+        resume() {
+            vestimate -q sheets.ndjson --illuminant unknown --known-fold card.ndjson=0.5 --resume out.ndjson
+        }
+        light FL2 --reflectance 0.5 > card.ndjson
+        resume && head -n 2 out.ndjson > begun && cp begun out.ndjson && resume && wc -l < out.ndjson
+        light A --reflectance 0.5 > card.ndjson
+        cp begun out.ndjson && resume");
+    assert_eq!((run.status, run.stdout.as_str()), (1, "3\n"), "{run:?}");
+    assert!(run.stderr.contains("is not what this run makes"), "{run:?}");
 }
 
 #[test]

@@ -157,7 +157,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let mut verdicts = (!args.common.quiet).then(Verdicts::on_terminal).flatten();
     let mut measured = Vec::new();
     let mut traces = args.trace.as_deref().map(|path| Output::to(Some(path), &[])).transpose()?;
-    let kept = out.kept()?;
+    let kept = out.kept()?.to_be_checked(); // files that flags name may have changed
     let done = |record: Record, made: Option<Made>| {
         let (estimate, trace) = match (made, &record) {
             (Some(Made { estimate, trace }), _) => (Some(estimate), trace),
