@@ -54,6 +54,40 @@ exposure = json.loads(sys.stdin.readlines()[1])['estimate']['exposure']
 print('estimated exposure', 'right' if abs(exposure / 0.5 - 1) < 0.03 else exposure)"
 vestimate --fit exposure sample.ndjson 2>&1 >/dev/null | grep 'white region'
 
+# a picture of paper alone, in the uneven light, shows the exposure of a photograph with half its exposure time, where both record their settings
+oiiotool sheet.exr --mulc $1,$2,$3 -d uint16 -o of_paper.tif
+oiiotool uneven.exr --mulc 0.5 -d uint16 -o unknown.tif
+python3 - <<'END'
+import struct
+
+def with_settings(tiff, exposure_s):  # a first directory at the end of a little-endian TIFF, with EXIF: f/8, ISO 100
+    tiff += bytes(len(tiff) % 2)
+    (at,) = struct.unpack_from("<I", tiff, 4)
+    (count,) = struct.unpack_from("<H", tiff, at)
+    entry = lambda tag, kind, value: struct.pack("<HHII", tag, kind, 1, value)
+    exif_at = len(tiff) + 16
+    ratios = struct.pack("<4I", round(1e6 * exposure_s), 10**6, 8, 1)
+    exif = struct.pack("<H", 3) + entry(33434, 5, exif_at - 16) + entry(33437, 5, exif_at - 8) + entry(34855, 3, 100) + bytes(4)
+    entries = [tiff[at + 2 + 12 * n :][:12] for n in range(count)] + [entry(34665, 4, exif_at)]
+    entries.sort(key=lambda entry: struct.unpack_from("<H", entry))
+    return tiff[:4] + struct.pack("<I", exif_at + len(exif)) + tiff[8:] + ratios + exif + struct.pack("<H", len(entries)) + b"".join(entries) + bytes(4)
+
+for source, name, exposure_s in (("unknown", "half", 0.005), ("of_paper", "of_paper", 0.01)):
+    tiff = open(source + ".tif", "rb").read()
+    open(name + ".tif", "wb").write(with_settings(tiff, exposure_s))
+END
+for photo in half unknown; do panels $photo.tif --white of_paper.tif -o $photo.ndjson 2>&1; done
+panels half.tif --white of_paper.tif --white-reflectance 0.9 --white-cos 0.8 -o card.ndjson 2>&1
+python3 - <<'END'
+import json
+for name, true in (("half", 0.25 * 0.5625), ("card", 0.25 * 0.5625 / 0.8), ("unknown", None)):
+    paper = json.loads(open(name + ".ndjson").readlines()[1]).get("white_paper")
+    if true and paper:
+        print(name, "right" if abs(paper["exposure"] / true - 1) < 0.05 else paper["exposure"] / true, paper["image"])
+    else:
+        print(name, paper)
+END
+
 echo what is refused
 oiiotool sheet.exr --resize 320x240 -o small.exr
 oiiotool sheet.exr --mulc 3 -d uint16 -o clipped.tif

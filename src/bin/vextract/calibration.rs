@@ -7,7 +7,7 @@ use vfold::calibrate::Calibration;
 use vfold::cli::Common;
 use vfold::error::counted;
 use vfold::forward::OpenLight;
-use vfold::image::{FacetMeasurement, Grid, Lens, Photograph};
+use vfold::image::{FacetMeasurement, FlatField, Grid, Lens, Photograph};
 use vfold::scene::Setting;
 use vfold::spectrum::WavelengthGrid;
 use vfold::stream::{CalibrationRecord, Corners, Regions, Scene, WhitePaperRecord};
@@ -44,8 +44,8 @@ pub struct CalibrationArgs {
     /// exit; use the file with --camera
     #[arg(long, value_name = "FILE.csv", requires = "chart_place")]
     pub save_camera: Option<PathBuf>,
-    /// Reflectance of the white card; without it, the white region is taken for white printing paper, which
-    /// shows the exposure to 6 %
+    /// Reflectance of the white card; without it, the white region or picture is taken for white printing
+    /// paper, which shows the exposure to 6 %
     #[arg(long, value_name = "SPEC", requires = "white_place")]
     white_reflectance: Option<String>,
     /// Cosine of the angle between the sun and the normal of card or paper, above 0 to 1
@@ -117,6 +117,11 @@ enum White {
 }
 
 impl ResolvedCalibration {
+    /// Whether white is taken for printing paper.
+    pub fn is_paper(&self) -> bool {
+        matches!(self.white, White::Paper(_))
+    }
+
     /// Drops a detected chart if a white card or the exposure was stated.
     pub fn forget_spare(&self, regions: &mut Regions) {
         if regions.chart_confidence.is_some() && (regions.white.is_some() || self.exposure.is_some()) {
@@ -167,6 +172,25 @@ impl ResolvedCalibration {
         };
         let light = light(scene)?;
         paper::exposure(target, &View { path, photograph, light: &light, lens }, corners).map(Some)
+    }
+
+    /// What the picture of a white sheet shows of the exposure, if nothing in the photograph does and both
+    /// record the camera's settings.
+    ///
+    /// # Errors
+    /// As [`paper::exposure_of_sheet`].
+    pub fn sheet(
+        &self,
+        scene: &Scene,
+        regions: &Regions,
+        sheet: (&Path, &FlatField),
+        photograph: &Photograph,
+    ) -> Result<Option<WhitePaperRecord>> {
+        if self.marked(regions)?.is_some() || self.exposure.is_some() || scene.is_light_unknown()? {
+            return Ok(None);
+        }
+        let (White::Card(target) | White::Paper(target)) = &self.white;
+        paper::exposure_of_sheet(target, &light(scene)?, sheet, photograph)
     }
 
     /// The calibration by the marked target, if it has a known reflectance.

@@ -24,9 +24,10 @@ pub struct ReadingArgs {
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     white_level: Option<f64>,
     /// Photograph of a white sheet with the same framing, to divide by: it corrects uneven light; its mean
-    /// counts as 1
+    /// counts as 1. If both files record exposure time, aperture and sensitivity, and nothing else shows the
+    /// exposure, the sheet does, as printing paper or --white-reflectance
     #[arg(long, value_name = "IMAGE")]
-    white: Option<PathBuf>,
+    pub white: Option<PathBuf>,
     /// Undo the camera's white balance and colour matrix in an sRGB picture, which the file states
     #[arg(long, value_name = "FILE.json")]
     undo: Option<String>,

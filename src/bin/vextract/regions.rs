@@ -14,7 +14,7 @@ use super::finding;
 #[command(
     next_help_heading = "Regions",
     group = ArgGroup::new("chart_place").args(["chart", "regions"]).multiple(true),
-    group = ArgGroup::new("white_place").args(["white_region", "regions"]).multiple(true)
+    group = ArgGroup::new("white_place").args(["white_region", "regions", "white"]).multiple(true)
 )]
 pub struct RegionArgs {
     /// Corners of panel 0, px; facets of panels without corners are null [default: detected, if no panel

@@ -72,7 +72,16 @@ impl Setup<'_> {
         if facets.iter().all(|facet| facet.mean.is_none()) {
             return Err(numbers::none_usable(path, photograph.info(), &facets));
         }
-        let paper = self.calibration.paper(self.scene, &regions, placed.lens(), path, &photograph)?;
+        let paper = match (&self.flat_field, &args.reading.white) {
+            (Some(sheet), Some(white)) => {
+                self.calibration.sheet(self.scene, &regions, (white.as_path(), sheet), &photograph)?
+            }
+            _ => None,
+        };
+        let paper = match paper {
+            Some(paper) => Some(paper),
+            None => self.calibration.paper(self.scene, &regions, placed.lens(), path, &photograph)?,
+        };
         let calibrated = self.calibrated(&regions, placed.lens(), path, &photograph)?;
         let mut sample = Sample::new(&self.id, &name(path))?;
         if let Some(exposure) = self.calibration.exposure {
@@ -81,8 +90,12 @@ impl Setup<'_> {
         if let Some(paper) = &paper {
             sample.set_white_paper(paper)?;
             if !self.args.common.quiet {
-                let remedy = "for a card give --white-reflectance";
-                cli::say("vextract", &format!("{}: taken for {paper}; {remedy}", path.display()));
+                let line = if self.calibration.is_paper() {
+                    format!("{}: taken for {paper}; for a card give --white-reflectance", path.display())
+                } else {
+                    format!("{}: {paper}", path.display())
+                };
+                cli::say("vextract", &line);
             }
         }
         if let Some((calibration, record)) = &calibrated {

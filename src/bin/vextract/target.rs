@@ -71,6 +71,11 @@ impl Target {
         self.cos
     }
 
+    /// Light of its first patch at exposure 1, one number per channel.
+    pub fn expected(&self, light: &OpenLight) -> Vec<f64> {
+        light.flat_rgb(self.cos, &self.patches[0].1)
+    }
+
     /// Its patches between `corners`.
     pub fn grid(&self, lens: Lens, corners: Corners) -> Result<Grid> {
         Ok(Grid::even(Homography::through(lens, corners)?, [self.rows, self.cols]))

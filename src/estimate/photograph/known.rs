@@ -21,8 +21,8 @@ const TOLERANCE: f64 = 0.1;
 const LIMIT: usize = 500;
 /// Error of each waveband of a known reflectance by itself: half of the last digit that instruments give.
 const WHITE_SD: f64 = 5e-4;
-/// Minimum probability of a kind of day that a known sheet all but rules out: a cloud may pass between two
-/// photographs.
+/// Minimum probability of a kind of day that a known sheet all but rules out, as a cloud may pass between two
+/// photographs: a round number, measured on no photograph.
 const OTHER_DAY: f64 = 1e-3;
 
 /// A known reflectance with its errors.

@@ -94,10 +94,10 @@ priors! {
     sky_mired_sd: 20.0,
     /// Reciprocal colour temperature of a sky that is not clear, 1e-6/K.
     cloud_mired: 156.0,
-    /// Standard deviation in haze: thin cloud has the sun's colour, haze is bluer, 5600 K to 7700 K. Widened
-    /// with a picture of `../shared/faults` in view.
+    /// Standard deviation in haze: thin cloud has the sun's colour, haze is bluer; two in three between 5500 K
+    /// and 7600 K. Widened with a picture of `../shared/faults` in view.
     hazy_mired_sd: 25.0,
-    /// Standard deviation on an overcast day: 5800 K to 7000 K.
+    /// Standard deviation on an overcast day: two in three between 6100 K and 6800 K.
     overcast_mired_sd: 9.0,
     /// Share of a hazy sky's light with the distribution of an overcast sky, and its standard deviation.
     hazy_cloud: 0.3,

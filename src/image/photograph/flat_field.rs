@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::Photograph;
 use super::pixel::Pixel;
+use super::{Photograph, PhotographInfo};
 use crate::{Error, Result};
 
 /// A photograph of a uniformly coloured sheet, which shows the distribution of the light and the vignetting.
@@ -47,6 +47,18 @@ impl FlatField {
         }
         let per_mean = [0, 1, 2].map(|channel| counts[channel] / sums[channel]);
         Ok(Self { sheet: Box::new(sheet), per_mean })
+    }
+
+    /// Mean of each channel of the sheet, which counts as 1 in what is divided by it.
+    #[must_use]
+    pub fn mean(&self) -> [f64; 3] {
+        self.per_mean.map(f64::recip)
+    }
+
+    /// The photograph of the sheet.
+    #[must_use]
+    pub fn info(&self) -> &PhotographInfo {
+        self.sheet.info()
     }
 
     /// Width and height, px.

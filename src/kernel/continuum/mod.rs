@@ -1,6 +1,6 @@
 //! Interreflections between two undivided panels: eqs. (1) to (4) without facets.
 //!
-//! One flat patch per facet is 4 % off at the crease of a bright 45° fold, however exact its form factors.
+//! One flat patch per facet is 5 % off at the crease of a bright 45° fold, however exact its form factors.
 //! Here the radiosity is instead a function on the panel: a polynomial in both directions on each of a few
 //! cells (Galerkin's method, `space`). Cells narrow geometrically towards the crease and its ends, where
 //! light varies as a power of the distance, and in narrow folds towards the outer edges, where it escapes. A
