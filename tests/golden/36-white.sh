@@ -52,7 +52,7 @@ vestimate sample.ndjson 2>/dev/null | python3 -c "
 import json, sys
 exposure = json.loads(sys.stdin.readlines()[1])['estimate']['exposure']
 print('estimated exposure', 'right' if abs(exposure / 0.5 - 1) < 0.03 else exposure)"
-vestimate --fit exposure sample.ndjson 2>&1 >/dev/null | grep 'white region'
+vestimate --fit exposure sample.ndjson 2>&1 >/dev/null | grep 'white paper'
 
 # a picture of paper alone, in the uneven light, shows the exposure of a photograph with half its exposure time, where both record their settings
 oiiotool sheet.exr --mulc $1,$2,$3 -d uint16 -o of_paper.tif
