@@ -15,7 +15,7 @@ complete -c vextract -l preview -d 'Write a small picture for finding corners wi
 complete -c vextract -l transfer -d 'Transfer curve of the stored numbers; auto: as the file states, else sRGB for 8 bits and linear for the rest' -r
 complete -c vextract -l black-level -d 'Stored number for no light; auto: the darkest, if it is the same in all channels and not 0 [default: the RAW file\'s, else 0]' -r
 complete -c vextract -l white-level -d 'Stored number for 1; pixels at or above it count as clipped [default: the RAW file\'s, else 255, 65535 or, for floats, 1]' -r
-complete -c vextract -l white -d 'Photograph of a white sheet with the same framing, to divide by: it corrects uneven light; its mean counts as 1' -r -F
+complete -c vextract -l white -d 'Photograph of a white sheet with the same framing, to divide by: it corrects uneven light; its mean counts as 1. If both files record exposure time, aperture and sensitivity, and nothing else shows the exposure, the sheet does, as printing paper or --white-reflectance' -r -F
 complete -c vextract -l undo -d 'Undo the camera\'s white balance and colour matrix in an sRGB picture, which the file states' -r
 complete -c vextract -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel, above 0, if known' -r
 complete -c vextract -l chart-grid -d 'Rows and columns of patches of the chart' -r
@@ -190,7 +190,7 @@ complete -c vextract -l chart-reference -d 'Reflectances of the chart\'s patches
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"
-complete -c vextract -l white-reflectance -d 'Reflectance of the white card; without it, the white region is taken for white printing paper, which shows the exposure to 6 %' -r -F -a "cc24\t''
+complete -c vextract -l white-reflectance -d 'Reflectance of the white card; without it, the white region or picture is taken for white printing paper, which shows the exposure to 6 %' -r -F -a "cc24\t''
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"

@@ -14,12 +14,12 @@ use crate::error::Result;
 /// colour reveals nothing about camera or light; its luminance factor is known to within a few per cent.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct WhitePaperRecord {
-    /// Its four corners, [x, y] each, in pixels of the upright picture, if it is in the photograph itself.
+    /// File of the picture in which it is: the photograph, or another that shows nothing else.
+    #[serde(default)]
+    image: String,
+    /// Its four corners, [x, y] each, in pixels of the upright picture, if it is in the photograph.
     #[serde(skip_serializing_if = "Option::is_none")]
     corners: Option<[[f64; 2]; 4]>,
-    /// File of the picture that shows nothing else.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    image: Option<String>,
     /// Cosine of the angle between the direction to the sun and the normal of the paper.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     cos: f64,
@@ -34,21 +34,19 @@ pub struct WhitePaperRecord {
 }
 
 impl WhitePaperRecord {
-    /// The record of paper between `corners`, px, whose normal is at an angle of cosine `cos` to the sun:
-    /// its values in the photograph, and the exposure with its standard deviation.
+    /// The record of paper in the picture `path`, if that is the photograph between `corners`, px, whose
+    /// normal is at an angle of cosine `cos` to the sun: its values, and the exposure with its standard
+    /// deviation.
     #[must_use]
-    pub fn in_photograph(corners: Corners, cos: f64, measured: Vec<f64>, exposure: [f64; 2]) -> Self {
-        let corners = Some(corners.map(|corner| [corner.x, corner.y]));
-        let [exposure, exposure_sd] = exposure;
-        Self { corners, image: None, cos, measured, exposure, exposure_sd }
-    }
-
-    /// The same of paper in the picture `path`, which shows nothing else.
-    #[must_use]
-    pub fn in_picture(path: &Path, cos: f64, measured: Vec<f64>, exposure: [f64; 2]) -> Self {
-        let image = Some(path.file_name().unwrap_or_default().to_string_lossy().into_owned());
-        let [exposure, exposure_sd] = exposure;
-        Self { corners: None, image, cos, measured, exposure, exposure_sd }
+    pub fn new(
+        (path, corners): (&Path, Option<Corners>),
+        cos: f64,
+        measured: Vec<f64>,
+        [exposure, exposure_sd]: [f64; 2],
+    ) -> Self {
+        let image = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let corners = corners.map(|corners| corners.map(|corner| [corner.x, corner.y]));
+        Self { image, corners, cos, measured, exposure, exposure_sd }
     }
 }
 
@@ -56,7 +54,9 @@ impl WhitePaperRecord {
 impl fmt::Display for WhitePaperRecord {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str("white paper")?;
-        self.image.iter().try_for_each(|image| write!(f, " in {image}"))?;
+        if self.corners.is_none() {
+            write!(f, " in {}", self.image)?;
+        }
         write!(f, ": exposure {:.3} ± {:.3}", self.exposure, self.exposure_sd)
     }
 }

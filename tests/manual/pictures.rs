@@ -10,7 +10,7 @@ const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs");
 
 /// Pictures that no block of a page makes, and the lines that do, in an empty folder; `ROOT` is the
 /// project.
-const MADE_BY: [(&[&str], &str); 4] = [
+const MADE_BY: [(&[&str], &str); 5] = [
     (
         &["fold.png", "spectrum.svg"],
         r#"sed -n '/^mkdir -p/,$p' "$ROOT/examples/quickstart" >steps; say() { :; }; out=$PWD; . ./steps"#,
@@ -21,7 +21,21 @@ const MADE_BY: [(&[&str], &str); 4] = [
         r#"TOOLS=here "$ROOT/examples/paper/figures" >report.md; mv vfold-paper paper"#,
     ),
     (&["picker.png"], PICKER),
+    (&["unfound.png"], UNFOUND),
 ];
+
+/// Photographs in which no fold is found, side by side.
+const UNFOUND: &str = r#"
+photo=$ROOT/tests/data/photos/a_ideal_magenta_50.exr
+oiiotool $photo --cut 300x480+200+0 --fullpixels -o cut.exr
+oiiotool $photo --fill:color=0.06,0.04,0.03 200x240+20+300 -o covered.exr
+oiiotool $photo --maxc 0.068,0.072,0.088 -o alike.exr
+[ "$(vextract --find cut.exr covered.exr alike.exr | grep -c '"found":false')" = 3 ]
+for case in cut covered alike; do
+    oiiotool $case.exr --mulc 6 --colorconvert linear sRGB --resize 0x240 -d uint8 -o $case.png
+done
+oiiotool cut.png covered.png alike.png --mosaic:pad=4 3x1 -o unfound.png
+"#;
 
 /// The page of `vextract --pick` in a browser.
 const PICKER: &str = r#"

@@ -387,9 +387,9 @@ impl<'a> Estimator<'a> {
     fn say_paper_unused(&self, sample: &Sample, exposure: Exposure) -> Result<()> {
         let is_asked = !self.asked.args.common.quiet && exposure.known().is_none();
         if is_asked && sample.white_paper()?.is_some() {
-            let text = "the white paper does not give the exposure here: only photographs of folds use it, and \
-                        only with --fit auto; state --exposure, or mark a card and give vextract its \
-                        --white-reflectance";
+            let text = "the white paper does not give the exposure here: only photographs of folds use \
+                        it, and only with --fit auto; state --exposure, or mark a card and give vextract \
+                        its --white-reflectance";
             cli::say("vestimate", &format!("{}: {text}", sample.id()));
         }
         Ok(())

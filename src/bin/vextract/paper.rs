@@ -35,7 +35,12 @@ pub fn exposure(target: &Target, view: &View, corners: Corners) -> Result<WhiteP
     }
     let exposure = patch.measured[green] / patch.expected[green];
     let sd = LUMINANCE_FACTOR_SD.hypot(patch.standard_error[green] / patch.measured[green]);
-    Ok(WhitePaperRecord::in_photograph(corners, target.cos(), patch.measured, [exposure, exposure * sd]))
+    Ok(WhitePaperRecord::new(
+        (view.path, Some(corners)),
+        target.cos(),
+        patch.measured,
+        [exposure, exposure * sd],
+    ))
 }
 
 /// The exposure that another picture of nothing but white paper shows, in the same light and divided by it,
@@ -62,7 +67,7 @@ pub fn exposure_of_sheet(
     let green = green(light, expected.len());
     let exposure = measured[green] / expected[green] * own / of_sheet;
     let exposures = [exposure, exposure * LUMINANCE_FACTOR_SD];
-    Ok(Some(WhitePaperRecord::in_picture(path, target.cos(), measured, exposures)))
+    Ok(Some(WhitePaperRecord::new((path, None), target.cos(), measured, exposures)))
 }
 
 /// The channel whose light brighteners do not add to.

@@ -94,8 +94,8 @@ priors! {
     sky_mired_sd: 20.0,
     /// Reciprocal colour temperature of a sky that is not clear, 1e-6/K.
     cloud_mired: 156.0,
-    /// Standard deviation in haze: thin cloud has the sun's colour, haze is bluer; two in three between 5500 K
-    /// and 7600 K. Widened with a picture of `../shared/faults` in view.
+    /// Standard deviation in haze: thin cloud has the sun's colour, haze is bluer; two in three between
+    /// 5500 K and 7600 K. Widened with a picture of `../shared/faults` in view.
     hazy_mired_sd: 25.0,
     /// Standard deviation on an overcast day: two in three between 6100 K and 6800 K.
     overcast_mired_sd: 9.0,
