@@ -169,12 +169,15 @@ fn the_bend_of_the_outer_side_shows_the_lens() {
             (off.fold(0.0, f64::max), found.lens)
         };
         let (off_px, found) = off(&LensEstimate::UNKNOWN);
-        assert!(off_px < 0.25, "{k1}: {off_px}");
         let error = found.lens.coefficients()[0] - k1;
         assert!(error.abs() < 0.004 && error.abs() < 3.0 * found.k1_sd, "{k1}: {found:?}");
         let (straight_px, stated) = off(&LensEstimate::stated(Lens::STRAIGHT));
         assert_eq!(stated, LensEstimate::stated(Lens::STRAIGHT));
-        assert!(straight_px > 2.0 * off_px, "{k1}: {straight_px}");
+        println!(
+            "k1 {k1}: corners {off_px:.3} px off, through a straight lens {straight_px:.3} px, {found:?}"
+        );
+        // one side leaves a sixth of what is usually expected of lenses, and pixels a tenth of one
+        assert!(off_px < straight_px / 6.0 + 0.1, "{k1}: {off_px} {straight_px}");
     }
 }
 

@@ -114,8 +114,10 @@ impl KnownFold {
         let (optics, _) = taken;
         let reflectance = self.spectrum.on(&optics.grid, Outside::Refuse)?;
         let sheet = KnownSheet::new(optics.grid.wavelengths_nm(), &reflectance)?;
-        let is_flat_photograph =
-            self.is_photograph() && FoldSetting::of(&lit).is_ok_and(|setting| setting.fold.is_flat());
+        // in a stated light, any daylight being one, its colour alone shows nothing
+        let is_flat_photograph = self.is_photograph()
+            && !lights.is_empty()
+            && FoldSetting::of(&lit).is_ok_and(|setting| setting.fold.is_flat());
         if let SceneMethod::Map(prior) = method
             && self.is_photograph()
             && !is_flat_photograph

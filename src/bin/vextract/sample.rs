@@ -91,12 +91,17 @@ impl Setup<'_> {
             sample.set_white_paper(paper)?;
             if !self.args.common.quiet {
                 let line = if self.calibration.is_paper() {
-                    format!("{}: taken for {paper}; for a card give --white-reflectance", path.display())
+                    let remedy = "for a card give --white-reflectance, if turned from the sun --white-cos";
+                    format!("{}: taken for {paper}; {remedy}", path.display())
                 } else {
                     format!("{}: {paper}", path.display())
                 };
                 cli::say("vextract", &line);
             }
+        } else if !self.calibration.is_paper() && regions.white.is_none() && !args.common.quiet {
+            let line = "--white-reflectance is not used: no white region is marked, and no picture of white \
+                        by --white shows the exposure";
+            cli::say("vextract", &format!("{}: {line}", path.display()));
         }
         if let Some((calibration, record)) = &calibrated {
             apply(calibration, &mut facets);

@@ -25,14 +25,15 @@ pub(super) struct StraightSide {
 /// The lens under which the sides are straight.
 ///
 /// # Arguments
-/// - `known`: the lens of the ideal picture, as known without them.
-/// - `blur`, `most_of_piece`: as for [`Side::look`].
+/// - `known`: the lens as known without them.
+/// - `now`: the lens of the ideal picture; its standard deviation limits the search.
+/// - `model`: as for [`Side::look`].
 ///
 /// # Returns
 /// The lens, and how far the middle of any side was from the line between its ends, px.
 pub(super) fn straightening_lens(
     photograph: &Photograph,
-    known: &LensEstimate,
+    [known, now]: [&LensEstimate; 2],
     sides: &[StraightSide],
     model: EdgeModel,
 ) -> (LensEstimate, f64) {
@@ -40,21 +41,22 @@ pub(super) fn straightening_lens(
     let seen = |StraightSide { ends, inner }: &StraightSide| {
         let side = Side::new(ends[0], ends[1]);
         let per_k1 = bend_per_k1(size, &side, *ends);
-        let reach_px = (REACH_SDS * known.k1_sd * per_k1.abs()).max(LEAST_REACH_PX);
-        let [bend_px, sd_px] = side.bend_px(photograph, &known.lens, (reach_px, *inner), model)?;
+        let reach_px = (REACH_SDS * now.k1_sd * per_k1.abs()).max(LEAST_REACH_PX);
+        let [bend_px, sd_px] = side.bend_px(photograph, &now.lens, (reach_px, *inner), model)?;
         let weight = per_k1 / (sd_px * sd_px + (CUT_SD * ends[0].distance(ends[1])).powi(2));
         Some((per_k1, weight, bend_px))
     };
     let seen: Vec<_> = sides.par_iter().filter_map(seen).collect();
+    let already = now.lens.coefficients()[0] - known.lens.coefficients()[0];
     let (mut information, mut pull, mut most_px) = (known.k1_sd.powi(-2), 0.0, 0.0_f64);
     for (per_k1, weight, bend_px) in seen {
         information += weight * per_k1;
-        pull += weight * bend_px;
+        pull += weight * (bend_px + per_k1 * already);
         most_px = most_px.max(bend_px.abs());
     }
     match known.lens.with_k1_more(pull / information, size) {
         Ok(lens) => (LensEstimate { lens, k1_sd: information.sqrt().recip() }, most_px),
-        Err(_) => (*known, 0.0),
+        Err(_) => (*now, 0.0),
     }
 }
 

@@ -184,11 +184,11 @@ pub(in crate::image) fn settle(
         if round == 0 {
             first_edges.clone_from(&edges);
         }
-        if lens.is_uncertain() && OF_LENS.contains(&round) {
+        if known_lens.is_uncertain() && OF_LENS.contains(&round) {
             let straight: Vec<StraightSide> =
                 sides.iter().filter_map(|side| side.if_straight(&corners)).collect();
-            let (now, bend_px) =
-                straightening_lens(photograph, &lens, &straight, EdgeModel { blur, most_of_piece });
+            let model = EdgeModel { blur, most_of_piece };
+            let (now, bend_px) = straightening_lens(photograph, [known_lens, &lens], &straight, model);
             let seen_anew = |place: &mut Point| *place = now.lens.undistort(lens.lens.distort(*place));
             marked.iter_mut().chain(&mut corners).for_each(seen_anew);
             reaches.iter_mut().for_each(|reach| *reach = reach.max(bend_px));
