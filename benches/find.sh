@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How well folds and charts are found, in photographs that nothing was fitted to and composites of them: benches/results/find.md, in ten minutes.
 # `find.sh quick` takes a third of the composites; `find.sh angle` prints the table of angles alone, in half a minute, `find.sh charts` one of charts
-# alone, in all the kinds of pictures that make them hard.
+# alone, in all sorts of pictures that make them hard.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/machine.sh
@@ -38,20 +38,20 @@ fi
     echo
     echo "$made_by"
     echo
-    echo 'Rendered photographs of folded sheets to which no weight of the search was fitted, as they are and made harder, and as many pictures without'
-    echo 'a fold (`benches/find_pictures.py`). Per cent of pictures whose worst corner is within so much of a panel'"'"'s side; claimed: said with the'
-    echo 'confidence from which on vextract measures without asking; wrong: a corner more than 3 % off. Of tiles, stripes and the corner of a room'
-    echo 'there was no picture when the weights were fitted. Charts: claimed if vextract would use them without asking; errors in distances from patch to'
-    echo 'patch, wrong above 0.35.'
+    echo 'Rendered photographs of folded sheets to which no weight of the search was fitted, as they are and made harder, and pictures without a fold'
+    echo '(`benches/find_pictures.py`). Within: per cent of pictures whose worst corner is off by less than this share of the side of a panel. Claimed: with'
+    echo 'the confidence from which vextract measures without asking; wrong: claimed with a corner off by more than 3 %. No weight was fitted to pictures'
+    echo 'with tiles, stripes or the corner of a room. Charts: claimed if vextract would use them without asking; errors in distances from patch to patch,'
+    echo 'wrong above 0.35.'
     echo
     "$python" -B benches/find_score.py "$bin/vextract" "$pictures"
     echo
-    echo 'How far the folds are open by their corners alone, in the photographs as they are, of which all are of square panels:'
+    echo 'The angle by the corners alone, in the photographs as they are; all panels are square:'
     echo
     "$python" -B benches/find_angle.py "$bin/vextract" "${sidecars[@]}"
     echo
-    echo 'Photographs with fold, angle and chart told as a careful user has them, and found, camera and light told in both; `train` is what finding was'
-    echo 'fitted on. A chart that is turned from the sun is used where it is told how far, and left out where it is found.'
+    echo 'Estimates with fold, angle and chart stated as a careful user knows them, and with those that `vextract --find` finds; camera and light are stated'
+    echo 'in both. The finder was fitted on `train`. A chart that is turned away from the sun is used where its angle is stated, and left out where it is found.'
     echo
     "$python" -B benches/find_stated.py "$bin" "$shared"/{train,real,real/more,real/pairs,sky,ground}/*.json
 } | tee "$page.new"

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""How well `vextract --find` tells the angle of a fold, as a table of Markdown.
+"""How well `vextract --find` measures the angle of a fold, as a Markdown table.
 
     find_angle.py VEXTRACT SIDECAR.json...
 
-Of pictures whose fold is claimed: errors of `angle_deg`, per cent of them within two of `angle_sd_deg`, and its mean.
+Of pictures whose fold is claimed: errors of `angle_deg`, per cent of them within two `angle_sd_deg`, and its mean.
 """
 
 import json
@@ -39,7 +39,7 @@ def row(name, told):
 
 def main():
     told = list(answers(Path(sys.argv[1]), [Path(sidecar) for sidecar in sys.argv[2:]]))
-    print("| angle, degrees | pictures | claimed | median error | 90 % | root mean square | within two sd, % | mean sd | taken for square |")
+    print("| angle error, degrees | pictures | claimed | median | 90 % | root mean square | within 2 sd, % | mean sd | taken as square |")
     print("|---|---|---|---|---|---|---|---|---|")
     for name in dict.fromkeys(each[0] for each in told):
         print(row(name, [each for each in told if each[0] == name]))

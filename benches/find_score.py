@@ -3,9 +3,9 @@
 
     find_score.py VEXTRACT FOLDER [charts]      pictures and truth.json of find_pictures.py; charts alone
 
-A corner's error is its distance from the true one, over the side of a panel; a picture's is that of its worst corner. A claim is a fold said
-with the confidence from which on vextract measures without asking, and wrong if a corner is off by more than 3 %. A chart is printed if it is
-claimed, and wrong if a corner is off by more than 0.35 of the distance from patch to patch.
+A corner's error is its distance from the true one, over the side of a panel; a picture's is that of its worst corner. A fold is claimed with the
+confidence from which vextract measures without asking, and wrong if a corner is off by more than 3 %. A chart is printed if it is claimed, and
+wrong if a corner is off by more than 0.35 of the distance from patch to patch.
 """
 
 import json
@@ -17,12 +17,12 @@ from pathlib import Path
 import numpy as np
 from find_fit import area, corners, error
 
-CLAIMED, RIGHT = 0.97, 0.03  # FoundFold::SURE
+CLAIMED, RIGHT = 0.97, 0.03  # DetectedFold::SURE
 CHART_RIGHT = 0.35
 
 
 def found(vextract, folder, names):
-    """What --find says of each picture."""
+    """What --find prints for each picture."""
     run = subprocess.run([vextract, "--find", *(folder / name for name in names)], capture_output=True, text=True, check=True)
     return dict(zip(names, map(json.loads, run.stdout.splitlines()), strict=True))
 
@@ -42,7 +42,7 @@ class Row:
 
 
 def table(title, groups, has_fold=True):
-    print(f"| {title} | pictures | within 1 % | 2 % | 3 % | 5 % | claimed | of them wrong |")
+    print(f"| {title} | pictures | within 1 % | 2 % | 3 % | 5 % | claimed | wrong |")
     print("|---|---|---|---|---|---|---|---|")
     for name, pictures in groups:
         if pictures:
@@ -61,7 +61,7 @@ def chart_off(known, answer):
 
 
 def charts(groups):
-    print("| charts | pictures with one | claimed | of them wrong | middle corner error | most | pictures without | false claims |")
+    print("| charts | pictures with one | claimed | wrong | median corner error | largest | pictures without | false claims |")
     print("|---|---|---|---|---|---|---|---|")
     for name, pictures in groups:
         there = [p["chart_off"] for p in pictures if p["chart"] is not None]
@@ -75,7 +75,7 @@ def charts(groups):
 
 def reliability(pictures):
     said, right = np.array([p["said"] for p in pictures]), np.array([p["off"] <= RIGHT for p in pictures])
-    print("| confidence said | pictures | mean of it | were right |\n|---|---|---|---|")
+    print("| confidence | pictures | mean confidence | share right |\n|---|---|---|---|")
     for low, high in zip(bounds := [0, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 1.01], bounds[1:]):
         inside = (said >= low) & (said < high)
         if inside.any():
@@ -115,8 +115,8 @@ def main():
     table("photographs as they are", [*by(plain, "set"), ("all", plain)])
     table("made harder", [*by(hard, "kind"), ("all", hard)])
     table("cut by the edge of the picture", [("all", cut)])
-    said_so = sum(p["reason"] is not None and "cut" in p["reason"] for p in cut)
-    print(f"Of {len(cut)} cut folds {said_so} are said to be cut.\n")
+    reported = sum(p["reason"] is not None and "cut" in p["reason"] for p in cut)
+    print(f"{reported} of {len(cut)} cut folds are reported as cut.\n")
     table("without a fold", [*by(none, "kind"), ("all", none)], has_fold=False)
     reliability(pictures)
     as_they_are, harder = ([p for p in pictures if (p["kind"] == "as it is") == plain] for plain in (True, False))

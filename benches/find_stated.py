@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What it costs that nothing is typed but camera and light: photographs with fold, angle and chart told and found, as rows of a table.
+"""What it costs to state nothing but camera and light: photographs with fold, angle and chart stated and found, as rows of a table.
 
     find_stated.py TOOLS SIDECAR...        TOOLS: folder of the tools
 
-Told: corners, angle and tilt as a careful user has them, and the chart. Found: what `vextract --find` prints. Photographs that are not surely found
-are left out of both.
+Stated: corners, angle and tilt as a careful user knows them, and the chart. Found: what `vextract --find` prints. Photographs whose fold is not
+claimed are left out of both.
 """
 
 import json
@@ -18,12 +18,12 @@ from pathlib import Path
 from photographs import Tools, of_real, table
 from sheets import errors, estimated, within
 
-# the confidence from which on vextract measures without asking
+# the confidence from which vextract measures without asking
 SURE = 0.97
 
 
 def found_records(tools, sidecar, work):
-    """Records of a photograph of which camera and light are told; none if its fold is not surely found. A failing tool ends the run."""
+    """Records of a photograph of which camera and light are stated; none if its fold is not claimed. A failing tool ends the run."""
     said = json.loads(sidecar.read_text(encoding="utf-8"))
     told, nm, photo = said["told"], said["wavelengths_nm"], sidecar.with_suffix(".tif")
     regions = work / "regions.json"
@@ -38,7 +38,7 @@ def found_records(tools, sidecar, work):
 
 
 def measured(tools, sidecar):
-    """RMSE and errors over their standard deviations, told and found; none of a photograph that is not found."""
+    """RMSE and errors over their standard deviations, stated and found; none of a photograph whose fold is not claimed."""
     with tempfile.TemporaryDirectory() as work:
         records, truth = of_real(tools, sidecar, Path(work))
         found = found_records(tools, sidecar, Path(work))
@@ -56,7 +56,7 @@ def main(folder, *sidecars):
     with ThreadPoolExecutor() as several:
         for sidecar, scores in zip(sidecars, several.map(lambda sidecar: measured(tools, Path(sidecar)), sidecars), strict=True):
             sets[Path(sidecar).parent.name].append(scores)
-    print("| set | pictures | surely found | RMSE told | found | median told | found | worst told | found | within 1, 2 sd told, % | found |")
+    print("| set | pictures | claimed | RMSE, stated | found | median, stated | found | worst, stated | found | within 1, 2 sd, %, stated | found |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     for name, all_scores in sets.items():
         claimed = [scores for scores in all_scores if scores]

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Estimates of sheets that fluoresce and of those that light shines through, beside their true spectra; and how often sheets that do not are said to
-fluoresce: tables.
+"""Estimates of sheets that fluoresce and of those that light shines through, compared with their true spectra; and how often other sheets are
+reported to fluoresce: tables.
 
     fluorescence.py TOOLS SHARED [--each]   TOOLS: folder of the tools; SHARED: folder of `fluorescence`, `thin`, `data`, `train`, `real`
 
-RMSE and share within two standard deviations over 400 to 700 nm, of what is reflected and of the total radiance factor.
+RMSE and share within two standard deviations over 400 to 700 nm, of the reflectance and of the total radiance factor.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from photographs import Tools, of_real
 
-EXPOSURES = (("exposure known", ["--exposure", "1"]), ("free", ["--exposure", "free"]))
+EXPOSURES = (("exposure known", ["--exposure", "1"]), ("exposure free", ["--exposure", "free"]))
 SETS = ("colorchecker_sg140", "vrhel_dupont_paint120", "vrhel_nature79", "vrhel_objects_nocloth129")
 PHOTOGRAPHS = ("train/*.json", "real/all_*.json", "real/one_*.json", "real/more/*.json")
 VISIBLE = ("lemon", "yellow")
@@ -42,7 +42,7 @@ def names(record):
 
 
 def judged(record, nm, reflected, total):
-    """What is off of an estimate, and what is said of it."""
+    """How far an estimate is off, and what it reports."""
     rmse, within = beside(record, "reflectance", nm, reflected)
     field = "total_radiance_factor" if "fluorescence" in record else "reflectance"
     of_total, within_total = (None, None) if total is None else beside(record, field, nm, total)
@@ -54,12 +54,12 @@ def row(name, all):
     mean = lambda key: statistics.fmean(one[key] for one in all)
     rmse = [one["rmse"] for one in all]
     has_total = all[0]["total"] is not None
-    total = f"{mean('total'):.3f} | {mean('within_total'):.0%}" if has_total else "– | –"
+    total = f"{mean('total'):.3f} | {100 * mean('within_total'):.0f}" if has_total else "– | –"
     count = lambda key: sum(one[key] for one in all)
     levels = " / ".join(str(sum(one["level"] == level for one in all)) for level in ("good", "doubtful", "wrong"))
     lies = sum(one["level"] == "good" and one["within"] < 0.7 for one in all)
     print(
-        f"| {name} | {len(all)} | {mean('rmse'):.3f} | {statistics.median(rmse):.3f} | {max(rmse):.3f} | {mean('within'):.0%} | {total} |"
+        f"| {name} | {len(all)} | {mean('rmse'):.3f} | {statistics.median(rmse):.3f} | {max(rmse):.3f} | {100 * mean('within'):.0f} | {total} |"
         f" {count('fluorescence')} | {count('light_through')} | {levels} | {lies} |",
         flush=True,
     )
@@ -106,7 +106,7 @@ def named(records, field):
 
 
 def without(tools, shared):
-    """Sheets that send out nothing, and how many are said to."""
+    """Sheets that emit nothing, and how many are reported to."""
     scene, _ = tools.run("vkernel", "--angle-deg", 45)
     for spectra in SETS:
         sheets = shared / "data/reflectance" / f"{spectra}.csv"
@@ -128,12 +128,15 @@ def main():
     parser.add_argument("--each", action="store_true", help="a line for each sheet, too")
     args = parser.parse_args()
     tools = Tools(args.tools)
-    print("| | sheets | reflected | median | worst | in 2 sd | total | in 2 sd | said to fluoresce | said to be thin | good / doubtful / wrong | good and below 70 % |")
+    print(
+        "| | sheets | reflectance: RMSE | median | worst | within 2 sd, % | total: RMSE | within 2 sd, % | fluorescent | thin |"
+        " good / doubtful / wrong | good, below 70 % |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     folds(tools, args.shared / "fluorescence", None, args.each)
     folds(tools, args.shared / "thin", "thin", args.each)
     photographs(tools, args.shared / "fluorescence/photos", args.each)
-    print("\n| opaque, without fluorescence | sheets | said to fluoresce | said to be thin |\n|---|---|---|---|")
+    print("\n| opaque, without fluorescence | sheets | fluorescent | thin |\n|---|---|---|---|")
     without(tools, args.shared)
 
 

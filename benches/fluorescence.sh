@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# How far off sheets that fluoresce are, and how often others are said to: benches/results/fluorescence.md, in a minute. Sheets and photographs are
+# How far off sheets that fluoresce are, and how often others are reported to: benches/results/fluorescence.md, in a minute. Sheets and photographs are
 # those of SHARED (../shared).
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -19,9 +19,9 @@ made_by=$(machine "$bin/vkernel")
     echo
     echo "$made_by"
     echo
-    echo 'Sheets of `../shared/fluorescence` and `../shared/thin`, computed by another model; RMSE and share within two standard deviations over 400 to'
-    echo '700 nm, of what is reflected and of the total radiance factor, for which the reflectance stands where an estimate has none. The last column'
-    echo 'counts estimates that are called good with less than 70 % of wavebands within two standard deviations.'
+    echo 'Sheets of `../shared/fluorescence` and `../shared/thin`, computed by another model. RMSE and per cent of true values within two standard deviations,'
+    echo '400 to 700 nm, of the reflectance and of the total radiance factor; an estimate without such a factor counts with its reflectance. Fluorescent, thin:'
+    echo 'in how many estimates this is reported. The last column counts good estimates with less than 70 % of true values within two standard deviations.'
     echo
     python3 -B benches/fluorescence.py "$bin" "$shared"
 } | tee "$page.new"

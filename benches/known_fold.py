@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""What a fold of a known sheet beside the others is worth, their light stated or unknown: rows of a table.
+"""What a fold of a known sheet adds to the others, their light stated or unknown: rows of a table.
 
     known_fold.py TOOLS
 
-The ColorChecker's 24 patches at noise 1e-3, exposure free, beside a grey fold of reflectance 0.5; three seeds of noise.
+The ColorChecker's 24 patches at noise 1e-3, exposure free, with a grey fold of reflectance 0.5; three seeds of noise.
 """
 
 import argparse
@@ -31,7 +31,7 @@ def errors(record):
 def cell(found):
     rmse = [rmse for rmse, _ in found]
     within = statistics.fmean(within for _, within in found)
-    return f"{statistics.fmean(rmse):.4f} / {statistics.median(rmse):.4f} / {max(rmse):.3f} / {within:.0%}"
+    return f"{statistics.fmean(rmse):.4f} / {statistics.median(rmse):.4f} / {max(rmse):.3f} / {100 * within:.0f} %"
 
 
 def main():
@@ -39,7 +39,7 @@ def main():
     parser.add_argument("tools")
     tools = Tools(parser.parse_args().tools)
     scene = tools.run("vkernel")[0]
-    print("| light | stated | and a known fold | unknown | and a known fold |\n|---|---|---|---|---|")
+    print("| light | stated | stated, known fold | unknown | unknown, known fold |\n|---|---|---|---|---|")
     everything = [[] for _ in range(4)]
     for light in LIGHTS:
         columns = [[] for _ in range(4)]

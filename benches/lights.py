@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Ideal folds in a light that is told rightly, found, told wrongly, and flat patches whose light is found: rows of tables.
+"""Ideal folds whose light is stated rightly, unknown or stated wrongly, and flat patches in unknown light: rows of tables.
 
     lights.py TOOLS SHARED [--pick N]       TOOLS: folder of the tools; SHARED: folder of `data`
 
@@ -19,7 +19,7 @@ from photographs import Tools
 
 NOISES = ["1e-3", "3e-3", "1e-2"]
 LISTED = ["D50", "D55", "D65", "D75", "A", "FL2", "FL11", "LED-B3"]
-# In no list: what vestimate looks for is then one of its own without this one.
+# Not among the candidates: for those that are in vestimate's own list, it gets one without them.
 UNLISTED = ["D60", "sun:40deg", "LED-B2", "FL8", "data/illuminants/measured_vivitar_flash.csv"]
 LEFT_OUT = ["LED-B2", "FL8"]
 GRID_NM = range(400, 701, 5)
@@ -92,8 +92,8 @@ class Bench:
         said, ms = self.tools.run("vestimate", "-q", "--exposure", "free", *flags, given=records)
         return [json.loads(line) for line in said.splitlines()[1:]], ms
 
-    def told(self, records, light):
-        """Estimates that are told a light."""
+    def stated(self, records, light):
+        """Estimates for which a light is stated."""
         scene, *samples = records.splitlines()
         scene = json.loads(scene)
         scene["illuminants"] = [{"name": light, "power": self.power(light)}]
@@ -119,7 +119,7 @@ def within(all):
     return 100 * statistics.fmean(off)
 
 
-def found(all, light, powers):
+def identified(all, light, powers):
     """Per cent of the lights that are nearer to the true one than to any other of `powers`."""
     def nearest(power):
         return min(powers, key=lambda name: math.dist(power, powers[name]))
@@ -136,20 +136,20 @@ def picked(all, light):
 def row_of(bench, light, noise, powers, flags):
     records = bench.taken(light, noise, bench.fold)
     right, _ = bench.estimates(records)
-    untold, _ = bench.estimates(records, "--illuminant", "unknown", *flags)
-    wrong = [one for other in LISTED if other != light for one in bench.told(records, other)]
+    unknown, _ = bench.estimates(records, "--illuminant", "unknown", *flags)
+    wrong = [one for other in LISTED if other != light for one in bench.stated(records, other)]
     among, _ = bench.estimates(records, "--illuminant", "unknown", "--illuminants", bench.listed) if light in LISTED else ([], 0)
     flat, _ = bench.estimates(bench.taken(light, noise, bench.flat), "--illuminant", "unknown", *flags)
     return {
         "light": Path(light).stem,
         "noise": noise,
-        "found": found(untold, light, powers),
+        "identified": identified(unknown, light, powers),
         "of eight": picked(among, light),
-        "flat found": found(flat, light, powers),
+        "flat identified": identified(flat, light, powers),
         "right": mean_rmse(right),
         "right within": within(right),
-        "untold": mean_rmse(untold),
-        "untold within": within(untold),
+        "unknown": mean_rmse(unknown),
+        "unknown within": within(unknown),
         "one of eight": mean_rmse(among) if among else None,
         "one of eight within": within(among) if among else None,
         "wrong": mean_rmse(wrong),
@@ -159,10 +159,10 @@ def row_of(bench, light, noise, powers, flags):
 
 
 COLUMNS = [
-    "light", "noise", "found", "of eight", "flat found", "right", "right within", "untold", "untold within", "one of eight", "one of eight within", "wrong",
-    "wrong within", "flat",
+    "light", "noise", "identified", "of eight", "flat identified", "right", "right within", "unknown", "unknown within", "one of eight",
+    "one of eight within", "wrong", "wrong within", "flat",
 ]
-ERRORS = ("right", "untold", "one of eight", "wrong", "flat")
+ERRORS = ("right", "unknown", "one of eight", "wrong", "flat")
 
 
 def line(one):
@@ -180,7 +180,7 @@ def mean(name, noise, all):
 
 
 def without(bench, light):
-    """Lights as vestimate looks for them (`src/spectrum/likely_lights.rs`), all but one, each as likely as any other."""
+    """The candidates of vestimate (`src/spectrum/candidate_lights.rs`) without one, equally probable."""
     names = [f"daylight:{1e6 / mired:.0f}" for mired in range(80, 251, 10)] + [f"sun:{deg}deg" for deg in (30, 55, 70, 80)]
     names += [f"{1e6 / mired:.0f}K" for mired in range(250, 401, 10)] + [f"FL{n}" for n in range(1, 13)]
     names += [f"LED-{bulb}" for bulb in ("B1", "B2", "B3", "B4", "B5", "BH1", "RGB1", "V1", "V2")]
@@ -216,8 +216,8 @@ def main():
         with ThreadPoolExecutor(2) as pool:
             all = list(pool.map(of, jobs))
         for noise in NOISES:
-            told, untold = time_of(bench, noise), time_of(bench, noise, "--illuminant", "unknown")
-            print(f"At noise {noise}, in light A, an estimate takes {told:.1f} ms with the light told, {untold:.0f} ms with it untold.")
+            stated, unknown = time_of(bench, noise), time_of(bench, noise, "--illuminant", "unknown")
+            print(f"At noise {noise}, in light A, an estimate takes {stated:.1f} ms with the light stated, {unknown:.0f} ms with it unknown.")
         print()
         print("| " + " | ".join(COLUMNS) + " |")
         print("|" + "---|" * len(COLUMNS))
@@ -226,7 +226,7 @@ def main():
             print(*map(line, of_noise), sep="\n")
             listed = [one for one in of_noise if one["light"] in LISTED]
             others = [one for one in of_noise if one["light"] not in LISTED]
-            for name, some in [("**listed**", listed), ("**in no list**", others)]:
+            for name, some in [("**the eight**", listed), ("**others**", others)]:
                 if some:
                     print(line(mean(name, noise, some)))
 

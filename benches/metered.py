@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What the camera's settings and white paper add to photographs without a chart or a card, as rows of a table: without them, with an exposure time
-written into the file's EXIF that is off from the true one as light meters, makers and air are, and with what paper beside the sheet would show.
+written into the file's EXIF that is off from the true one as light meters, makers and air are, and with what paper next to the sheet would show.
 
     metered.py TOOLS SHARED        TOOLS: folder of the tools; SHARED: folder of `train` and `real`
 """
@@ -22,7 +22,7 @@ from sheets import errors, estimated, within
 SETS = [("train", "train/*.json"), ("real, all effects", "real/all_*.json"), ("real, more", "real/more/*.json"), ("real, pairs", "real/pairs/*.json")]
 TIMES = 3
 LN_DARKER, LN_ERROR = 0.7, 0.3
-# what vextract says of white paper, and of how it lies and is lit
+# uncertainty by vextract of white paper, and true error of how it lies and is lit
 PAPER_SD, PAPER_ERROR = 0.05, 0.064
 # ISO 12232, and a clear sun 45° high
 F_NUMBER, ISO = 8, 100
@@ -34,7 +34,7 @@ def is_bare(sidecar):
 
 
 def with_settings(tiff, exposure_s):
-    """The bytes of a little-endian TIFF whose EXIF tells the camera's settings: a new first directory at its end."""
+    """The bytes of a little-endian TIFF whose EXIF has the camera's settings: a new first directory at its end."""
     tiff += bytes(len(tiff) % 2)
     (at,) = struct.unpack_from("<I", tiff, 4)
     (count,) = struct.unpack_from("<H", tiff, at)
@@ -96,7 +96,7 @@ def row(name, said, found):
 
 def main(folder, shared):
     draw = random.Random(1)
-    print("| set | exposure by | count | RMSE | median | worst | within 1, 2 sd, % | exposure off, %, median | good |")
+    print("| set | exposure by | count | RMSE | median | worst | within 1, 2 sd, % | median exposure error, % | good |")
     print("|---|---|---|---|---|---|---|---|---|")
     for name, pattern in SETS:
         sidecars = [sidecar for sidecar in sorted(Path(shared).glob(pattern)) if is_bare(sidecar)]

@@ -17,13 +17,13 @@ cargo build --quiet --release --bins
 bin=${CARGO_TARGET_DIR:-target}/release
 page=benches/results/metered.md
 {
-    echo '# Exposure by the settings of the camera, and by white paper'
+    echo '# Exposure by camera settings and by white paper'
     echo
     machine "$bin/vestimate"
     echo
-    echo 'Rendered photographs without a chart or a card, three times each, their numbers taken for less light, as of those who fear'
-    echo 'clipped pixels (up to a half in two of three): without settings, and with an exposure time, an aperture and a sensitivity in their EXIF that make'
-    echo 'white what it is within 30 per cent, or with what vextract would say of white printing paper beside the sheet, off by 6 per cent.'
+    echo 'Rendered photographs without a chart or card, three times each, underexposed as by those who fear clipped pixels (in two of three by at most a half):'
+    echo 'without settings; with exposure time, aperture and sensitivity in EXIF, which give the value of white within 30 per cent; or with what vextract would'
+    echo 'measure of white printing paper next to the sheet, within 6 per cent.'
     echo
     "$python" -B benches/metered.py "$bin" "$shared"
 } | tee "$page.new"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How often vestimate names another light as likelier than the one that it is told, where that is right and where it is wrong: rows of tables.
+"""How often vestimate names another light as more probable than the stated one, where that is right and where it is wrong: rows of tables.
 
     stated.py TOOLS SHARED [--pick N]       TOOLS: folder of the tools; SHARED: folder of `data` and `train`
 
@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 from lights import LISTED, NOISES, Bench
 from photographs import Tools, of_real
 
-# A daylight told for one of nearly its temperature is neither right nor wrong.
+# A daylight stated as one of nearly its temperature is neither right nor wrong.
 NEAR = [{"D50", "D55"}, {"D55", "D65"}, {"D65", "D75"}]
 TRUE = [*LISTED, "D60", "LED-B2", "FL8"]
 LAMPS = ["A", "3000K", "FL2", "FL11", "LED-B3"]
@@ -31,27 +31,27 @@ def per_cent(all):
 
 
 def of_facets(bench, noise):
-    """Per cent of lights that are named, of those told rightly, nearly so, and wrongly."""
+    """Per cent of estimates that name another light, of those with it stated rightly, nearly so, and wrongly."""
     found = {"right": [], "near": [], "wrong": []}
     for true in TRUE:
         records = bench.taken(true, noise, bench.fold)
-        for told in LISTED:
-            kind = "right" if told == true else "near" if {told, true} in NEAR else "wrong"
-            found[kind] += bench.told(records, told)
+        for stated in LISTED:
+            kind = "right" if stated == true else "near" if {stated, true} in NEAR else "wrong"
+            found[kind] += bench.stated(records, stated)
     return [per_cent(all) for all in found.values()]
 
 
 def of_photographs(bench, sidecar):
-    """The photograph told in its own light and in each lamp."""
+    """Estimates of the photograph, its own light stated and each lamp."""
     tools = bench.tools
     with TemporaryDirectory() as work:
         records, _ = of_real(tools, sidecar, Path(work))
-    told = lambda records: json.loads(tools.run("vestimate", "-q", given=records)[0].splitlines()[1])
+    estimated = lambda records: json.loads(tools.run("vestimate", "-q", given=records)[0].splitlines()[1])
     scene, *samples = records.splitlines()
     def in_lamp(lamp):
         lit = json.loads(scene) | {"illuminants": [{"name": lamp, "power": bench.power(lamp)}]}
-        return told("\n".join([json.dumps(lit), *samples]) + "\n")
-    return told(records), [in_lamp(lamp) for lamp in LAMPS]
+        return estimated("\n".join([json.dumps(lit), *samples]) + "\n")
+    return estimated(records), [in_lamp(lamp) for lamp in LAMPS]
 
 
 def main():
@@ -62,14 +62,14 @@ def main():
     given = parser.parse_args()
     with TemporaryDirectory() as work, ThreadPoolExecutor(2) as pool:
         bench = Bench(Tools(given.tools), given.shared, given.pick, Path(work))
-        print("| facets | told rightly | a near daylight | told wrongly |")
+        print("| facets | stated rightly | as a near daylight | stated wrongly |")
         print("|---|---|---|---|")
         for noise, named in zip(NOISES, pool.map(lambda noise: of_facets(bench, noise), NOISES), strict=True):
             print(f"| computed, noise {noise} | {' | '.join(named)} |")
         sidecars = sorted((given.shared / "train").glob("*.json"))
         rightly, wrongly = zip(*pool.map(lambda sidecar: of_photographs(bench, sidecar), sidecars), strict=True)
         print(f"| photographs | {per_cent(rightly)} | | {per_cent([one for all in wrongly for one in all])} |")
-        print("\n| photographs in daylight told as | named |\n|---|---|")
+        print("\n| photographs in daylight, stated as | named |\n|---|---|")
         for lamp, all in zip(LAMPS, zip(*wrongly, strict=True), strict=True):
             print(f"| {lamp} | {per_cent(all)} |")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# How often another light is named as likelier than the one that was stated, right or wrong: benches/results/stated.md, in five minutes. Sheets and
+# How often another light is named as more probable than the stated one, rightly or wrongly: benches/results/stated.md, in five minutes. Sheets and
 # photographs are those of SHARED (../shared).
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -15,14 +15,14 @@ fi
 made_by=$(machine "$bin/vkernel")
 
 {
-    echo '# Stated lights that are checked'
+    echo '# How stated lights are checked'
     echo
     echo "$made_by"
     echo
-    echo 'Per cent of estimates whose verdict names another light as likelier than the stated one. Computed: the sheets of'
-    echo '[lights](lights.md), exposure free, in its first eight lights and in D60, LED-B2 and FL8, each told as each of the eight; daylights next to each'
-    echo 'other in that list are neither right nor wrong. Photographs: `../shared/train`, in daylight told as it is, and as lamps; their threshold was fitted'
-    echo 'on these, that of computed facets is what statements are taken to be worth.'
+    echo 'Per cent of estimates whose verdict names another light as more probable than the stated one. Computed: the sheets of [lights](lights.md),'
+    echo 'exposure free, in its first eight lights and in D60, LED-B2 and FL8, each stated as each of the eight; neighbouring daylights of that list count as'
+    echo 'neither right nor wrong. Photographs: `../shared/train`, their daylight stated as it is, and as lamps; their threshold was fitted on these, that of'
+    echo 'computed facets follows from how many statements are assumed to be wrong.'
     echo
     python3 -B benches/stated.py "$bin" "$shared"
 } | tee "$page.new"

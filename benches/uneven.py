@@ -22,7 +22,7 @@ SIZE = (320, 240)
 # what is rendered, the light for vkernel, the rectangle of the shadow and its depth, and what the verdict is to name
 CASES = [
     ("the sun", ["--tilt-deg", "1"], None, None),
-    ("a lamp 20 depths of a panel away", ["--light", "point:0,0,20"], None, "away"),
+    ("a lamp 20 panel depths away", ["--light", "point:0,0,20"], None, "away"),
     ("a lamp 8 depths away", ["--light", "point:0,0,8"], None, "away"),
     ("a lamp 5 depths away", ["--light", "point:0,0,5"], None, "away"),
     ("a lamp 3 depths away", ["--light", "point:0,0,3"], None, "away"),
@@ -57,7 +57,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("tools")
     tools = Tools(parser.parse_args().tools)
-    print("| light | sheets | RMSE | median | worst | in 2 sd | good / doubtful / wrong | named |\n|---|---|---|---|---|---|---|---|")
+    print("| light | sheets | RMSE | median | worst | within 2 sd, % | good / doubtful / wrong | named |\n|---|---|---|---|---|---|---|---|")
     with TemporaryDirectory() as work:
         for name, flags, shadow, word in CASES:
             found = [estimated(tools, Path(work), patch, flags, shadow) for patch in PATCHES]
@@ -69,7 +69,7 @@ def main():
             judged = " / ".join(str(levels.count(level)) for level in ("good", "doubtful", "wrong"))
             named = str(sum(word in json.dumps([one["verdict"], one.get("findings")]) for one, _ in found)) if word else "–"
             each = f"{statistics.fmean(rmse):.3f} | {statistics.median(rmse):.3f} | {max(rmse):.3f}"
-            print(f"| {name} | {len(found)} | {each} | {within:.0%} | {judged} | {named} |", flush=True)
+            print(f"| {name} | {len(found)} | {each} | {100 * within:.0f} | {judged} | {named} |", flush=True)
 
 
 if __name__ == "__main__":

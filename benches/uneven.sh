@@ -9,12 +9,12 @@ page=benches/results/uneven.md
 made_by=$(machine "$bin/vkernel")
 
 {
-    echo '# Light that is uneven'
+    echo '# Uneven light'
     echo
     echo "$made_by"
     echo
-    echo "Photographs that are rendered, of every fourth patch of the ColorChecker folded to 50°, with photon noise; exposure free, the light stated as D55 from"
-    echo 'the sun. RMSE, share of wavebands within two standard deviations, verdicts, and how often lamp, fall-off or shadow is named.'
+    echo 'Rendered photographs of every fourth patch of the ColorChecker, folded to 50°, with photon noise; exposure free, the light stated as D55 from the sun.'
+    echo 'RMSE, per cent of true values within two standard deviations, verdicts, and how often lamp, fall-off or shadow is named.'
     echo
     python3 -B benches/uneven.py "$bin"
 } | tee "$page.new"
