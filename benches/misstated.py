@@ -18,7 +18,7 @@ from photographs import Tools, of_real, points
 
 RIGHT = {"angle": 50, "light": "D65", "camera": "canon-5d-mark-ii", "flags": [], "out": 0}
 STATED = [
-    ("all as it is", {}),
+    ("everything correct", {}),
     ("48° for 50°", {"angle": 48}),
     ("51°", {"angle": 51}),
     ("45°", {"angle": 45}),
@@ -29,8 +29,8 @@ STATED = [
     ("D50 for D65", {"light": "D50"}),
     ("A for D65", {"light": "A"}),
     ("nikon-d5100 for canon-5d-mark-ii", {"camera": "nikon-d5100"}),
-    ("outer corners 40 px outside", {"out": 40}),
-    ("outer corners 60 px inside", {"out": -60}),
+    ("outer corners 40 px too far out", {"out": 40}),
+    ("outer corners 60 px too far in", {"out": -60}),
 ]
 LIGHTS = ["sun:40deg", "D50", "D55", "D65", "daylight:8000", "A"]
 

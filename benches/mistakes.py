@@ -3,14 +3,14 @@
 
     mistakes.py TOOLS [--records FOLDER] [GROUP...]     TOOLS: folder of the tools; FOLDER: for a JSON file per answer
 
-Every kind of mistake is made with eight matt sheets of the ColorChecker, 180 x 135 px with the noise of 20000 electrons at 1; kinds of a
-group share what is wrong and differ in how much. An answer is
+Every mistake is made with eight matte sheets of the ColorChecker, 180 x 135 px with the noise of 20000 electrons at 1; mistakes of a group
+share what is wrong and differ in how much. An answer is
 
     right      good, off by at most 0.03 (root mean square)
     held       good, 85 per cent of the true values within two standard deviations
     doubtful   doubtful
     wrong      wrong
-    refused    no spectrum, and a line that says why
+    refused    no spectrum, and a line with the reason
     lie        good, and none of the above
 """
 
@@ -400,7 +400,7 @@ for size in (5, 10, 20):
 for size in (5, 15):
     kind("corners off", f"outer corners {size} % inwards", lambda s, k=size: (fresh(s), moved(s, k / 100, [2, 3], True)))
     kind("corners off", f"outer corners {size} % outwards", lambda s, k=size: (fresh(s), moved(s, -k / 100, [2, 3], True)))
-kind("corners off", "outer sides given as the crease", lambda s: setattr(s, "corners", {n: f[[3, 2, 1, 0]] for n, f in s.corners.items()}))
+kind("corners off", "outer sides marked as the crease", lambda s: setattr(s, "corners", {n: f[[3, 2, 1, 0]] for n, f in s.corners.items()}))
 kind("corners off", "one panel turned over", lambda s: setattr(s, "corners", {"panel0": s.corners["panel0"], "panel1": s.corners["panel1"][[1, 0, 3, 2]]}))
 
 
@@ -592,7 +592,7 @@ def main(folder, *arguments):
             of_kind = [next(answers) for _ in SHEETS]
             (controls if group == "control" else total).extend(of_kind)
             row(f"{group}: {name}", of_kind)
-    for name, all_answers in (("controls, all", controls), (f"all {len(total) // len(SHEETS)} kinds", total)):
+    for name, all_answers in (("controls, all", controls), (f"all {len(total) // len(SHEETS)} mistakes", total)):
         if all_answers:
             row(name, all_answers)
 

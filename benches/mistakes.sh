@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What becomes of mistakes: two hundred kinds of them in simulated photographs, eight sheets each: benches/results/mistakes.md, in six minutes.
+# What becomes of mistakes: two hundred of them in simulated photographs, eight sheets each: benches/results/mistakes.md, in six minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/machine.sh
@@ -17,9 +17,10 @@ made_by=$(machine "$bin/vkernel")
     echo
     echo "$made_by"
     echo
-    echo 'Simulated photographs (180 x 135 px, noise of 20000 electrons) of eight matt sheets of the ColorChecker, folded to 45° in the sun, with one'
-    echo 'thing wrong in each; controls have nothing wrong, or what people err by. The verdict was made with eight other sheets in view, but for how many other cameras are searched. Right: good,'
-    echo 'and off by at most 0.03. Held: good, and 85 per cent of the true values within two standard deviations. Lie: good, and neither. RMSE: mean of those that are called good.'
+    echo 'Simulated photographs (180 x 135 px, noise of 20000 electrons) of eight matte sheets of the ColorChecker, folded to 45° in the sun, with one'
+    echo 'thing wrong in each; controls have nothing wrong, or the usual errors of users. The verdict was designed with eight other sheets in view, except for'
+    echo 'the number of other cameras that are searched. Right: good, and off by at most 0.03. Held: good, and 85 per cent of the true values within two standard'
+    echo 'deviations. Lie: good, and neither. RMSE: mean of the good ones.'
     echo
     "$python" -B benches/mistakes.py "$bin"
 } | tee "$page.new"
