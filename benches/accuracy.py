@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Accuracy in three rows: ideal folds, rendered photographs of real sheets, sheets that nothing was chosen with.
+"""Accuracy in three rows: ideal folds, rendered photographs of real sheets, unseen sheets.
 
 accuracy.py TOOLS SHARED SET.csv    TOOLS: folder of the tools; SHARED: folder of `real`, `sky` and `ground`
 """

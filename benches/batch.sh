@@ -1,6 +1,6 @@
 #!/bin/bash
-# Batches: samples a second, memory and their growth with the number of samples, on threads and on hosts; photographs of 24
-# megapixels and of real sheets; bytes a record. batch.sh [N] goes up to N (100000) samples and writes benches/results/batch.md and
+# Batches: samples per second, memory and their growth with the number of samples, on threads and on hosts; photographs of 24
+# megapixels and of real sheets; bytes per record. batch.sh [N] goes up to N (100000) samples and writes benches/results/batch.md and
 # batch.csv. Some seven minutes on two cores, half of them for N/10 photographs of real sheets; needs GNU time, GNU parallel,
 # oiiotool, sshd and zstd (apt-get install time parallel openimageio-tools openssh-server zstd) and 6 GB in $TMPDIR.
 set -euo pipefail
@@ -63,7 +63,7 @@ measure 'vestimate --resume of a half' "$some" 2 1 vestimate --no-history -j 2 "
 cmp half.ndjson estimated.ndjson
 measure vscore "$some" 2 1 vscore -j 2 estimated.ndjson
 
-# how long a sample takes from one end to the other, when the next is late
+# how long a sample takes from end to end if the next one is late
 late() { { head -n 2 "$few.ndjson"; sleep 2; } | vestimate | { head -n 2 >/dev/null; date +%s%N; }; }
 begin=$(date +%s%N)
 first_ms=$((($(late) - begin) / 1000000))
@@ -117,35 +117,35 @@ vestimate -q photographs.ndjson > spectra.ndjson
 sizes() {
     bytes 'computed sample' "$few.ndjson" "$few"
     bytes 'computed sample, zstd' samples.zst "$few"
-    bytes 'its estimate (the sample in it)' estimates.ndjson "$few"
+    bytes 'its estimate, with the sample' estimates.ndjson "$few"
     bytes 'its estimate, zstd' estimates.zst "$few"
     bytes 'its estimate, gzip' estimates.gz "$few"
     bytes 'sample of a photograph' photographs.ndjson 1000
-    bytes 'its estimate (the sample in it)' spectra.ndjson 1000
+    bytes 'its estimate, with the sample' spectra.ndjson 1000
     bytes 'facet RGB, NPY' facet_rgb.npy "$few"
     bytes 'reflectance, NPY' reflectance.npy "$few"
     bytes 'standard deviation of reflectance, NPY' sd.npy "$few"
-    bytes 'photograph of 24 megapixels, TIFF of 16 bits' 6000x4000.tif 1
-    bytes 'photograph of 24 megapixels, JPEG of quality 95' 6000x4000.jpg 1
+    bytes 'photograph of 24 megapixels, 16-bit TIFF' 6000x4000.tif 1
+    bytes 'photograph of 24 megapixels, JPEG, quality 95' 6000x4000.jpg 1
 }
 
 {
     echo '# Batches'
     echo
     echo "vfold $(vkernel --version | cut -d' ' -f2), $(rustc --version | cut -d' ' -f1,2), $(nproc) cores of$(sed -n 's/^model name.*://p' /proc/cpuinfo | head -n 1), $(parallel --version | sed 's/GNU parallel/GNU parallel/;q'), $(date +%F), load $(cut -d' ' -f1 /proc/loadavg);"
-    echo '45°, 10 x 10 facets a panel, facet noise 1e-3 of white. Hosts are daemons of ssh on loopback and share the cores, one process each. Memory is'
-    echo 'that of the largest process, and counts the file pages of programs.'
+    echo '45°, 10 x 10 facets a panel, facet noise 1e-3 of white. Hosts are ssh daemons on loopback that share the cores, one process each. Memory is the'
+    echo 'peak of the largest process, with the file pages of programs.'
     echo
-    echo '| what | samples | threads | hosts | s | samples/s | processor ms a sample | peak MB |'
+    echo '| what | samples | threads | hosts | s | samples/s | processor ms per sample | peak MB |'
     echo '|---|---|---|---|---|---|---|---|'
-    tail -n +2 "$csv" | sed 's/,/ | /g; s/^/| /; s/$/ |/'
+    tail -n +2 "$csv" | awk -F, '{ for (n = 1; n <= NF; n++) printf "| %s ", $n ~ /e[+]/ ? sprintf("%.0f", $n) : $n; print "|" }'
     echo
     awk -F, '$1 == "vestimate" && $3 == 2 { n[++rows] = $2; ms[rows] = $2 * $7; m[rows] = $8 } END {
-        for (k = 2; k <= rows; k++) printf "From %d to %d samples the processor time of vestimate grows with the power %.2f of their number, its memory from %d to %d MB.\n",
+        for (k = 2; k <= rows; k++) printf "From %d to %d samples, the processor time of vestimate grows as the power %.2f of their number, its memory from %d to %d MB.\n",
             n[k - 1], n[k], log(ms[k] / ms[k - 1]) / log(n[k] / n[k - 1]), m[k - 1], m[k] }' "$csv"
-    echo "A sample whose successor is two seconds late leaves vestimate $first_ms ms after the pipeline was started."
+    echo "If the next sample is two seconds late, the first leaves vestimate $first_ms ms after the pipeline starts."
     echo
-    echo '| a record | bytes |'
+    echo '| record | bytes |'
     echo '|---|---|'
     sizes | sed 's/\(.*\),/| \1 | /; s/$/ |/'
 } > "$table.new"

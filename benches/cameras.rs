@@ -1,7 +1,7 @@
-//! What stands in for a camera that nobody measured, each of the measured ones left out in turn: curves
-//! predicted from its published colour matrix, from the matrix that follows from its own curves, the camera
-//! of the nearest published matrix, one of its maker, one of any, and the mean of all. Errors are root mean
-//! squares of the curves over 400 to 700 nm, green's peak being 1.
+//! What stands in for a camera that nobody measured, each of the measured ones left out in turn:
+//! sensitivities predicted from its published colour matrix, from the matrix that follows from its own
+//! sensitivities, the camera of the nearest published matrix, one of its maker, one of any, and the mean of
+//! all. Errors are root mean squares of the sensitivities over 400 to 700 nm, relative to the peak of green.
 //!
 //! `cargo bench --features raw --bench cameras` prints the table of `benches/results/cameras.md`.
 
@@ -23,13 +23,13 @@ fn main() -> Result<()> {
     let computed = Predictor::by_matrices(&grid, &computed_matrices(&grid, &known)?)?;
     let nearest = |name: &str| {
         let nearest = published.nearest_to(name)?;
-        let curves =
+        let sensitivities =
             |name: &str| known.iter().find(|one| one.camera.name() == name).map(|one| &one.sensitivities);
-        Some(sensitivity_error(curves(name)?, curves(&nearest.name())?))
+        Some(sensitivity_error(sensitivities(name)?, sensitivities(&nearest.name())?))
     };
     println!(
-        "| camera left out | predicted | by computed matrix | nearest matrix | by maker | error | \
-         by neither | error | mean of all |"
+        "| camera left out | predicted | by computed matrix | nearest matrix | of its maker | error | \
+         of any maker | error | mean of all |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
     let mut columns: [Vec<f64>; 6] = Default::default();
@@ -60,7 +60,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// How far off the curves of a camera are as the others predict them; none if its matrix is not known.
+/// Error of a camera's sensitivities as the others predict them; none if its matrix is not known.
 fn predicted_error(predictor: &Predictor, camera: &str) -> Option<f64> {
     let left_out = predictor.left_out().into_iter().find(|one| one.camera.name() == camera)?;
     Some(sensitivity_error(&left_out.predicted, &left_out.measured))

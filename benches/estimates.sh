@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Time beside error of estimates, as a table in benches/results/estimates.md: the ColorChecker, and every set (CSV file) given as
+# Time and error of estimates, as a table in benches/results/estimates.md: the ColorChecker, and every set (CSV file) named as
 # an argument, with three cameras, without noise and with facet noise of 1e-3 of white: six minutes on one thread.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -43,8 +43,8 @@ scipy() {
     machine "$bin/vkernel"
     echo
     echo '45°, 10 x 10 facets a panel, D65, exposure known, one thread.'
-    echo "Means of RMSE and CIEDE2000 (10°, D65), medians of the processor's time and of iterations; the four columns on the right are the"
-    echo "paper's estimator (\`--prior smooth\`)."
+    echo "Mean RMSE and CIEDE2000 (10°, D65), median processor time and iterations; the four columns on the right are the paper's estimator"
+    echo '(`--prior smooth`).'
     echo
     echo '| set | camera | facet noise | RMSE | CIEDE2000 | ms | iterations | RMSE | CIEDE2000 | ms | iterations |'
     echo '|---|---|---|---|---|---|---|---|---|---|---|'

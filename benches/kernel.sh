@@ -1,5 +1,5 @@
 #!/bin/sh
-# Time beside error of every kernel and of the bounces, of what is skipped, and of whole runs of vkernel: tables and drawings in
+# Time and error of every kernel and of the bounces, of what is skipped, and of whole runs of vkernel: tables and drawings in
 # benches/results, about five minutes. pyviewfactor takes part where pip can install it.
 set -eu
 cd "$(dirname "$0")/.."

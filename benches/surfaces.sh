@@ -55,8 +55,8 @@ rows() {
     echo
     echo "vfold $(vkernel --version | cut -d' ' -f2), $(rustc --version | cut -d' ' -f1,2), $(nproc) cores of$(sed -n 's/^model name.*://p' /proc/cpuinfo | head -n 1), $(date +%F), load $(cut -d' ' -f1 /proc/loadavg);"
     echo 'one flat patch per facet, default tolerance (5e-3). Processor time and peak memory of the whole of vkernel on one thread. Errors at reflectance 0.9:'
-    echo 'of the box, how far the light of all bounces is off what went in, over 1 - r; of the sheet, facets off those of all pairs, solved by NumPy;'
-    echo 'of the crumpled one, off those at a tolerance of 1e-4; root mean squares.'
+    echo 'of the box, the light of all bounces against the direct light over 1 - r; of the three panels, root mean square against all pairs, solved by NumPy;'
+    echo 'of the crumpled sheet, root mean square against a tolerance of 1e-4.'
     echo
     echo '| what | facets | s | peak MB | relative error |'
     echo '|---|---|---|---|---|'

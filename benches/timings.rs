@@ -1,4 +1,4 @@
-//! Times that have a target, and those of whole runs and their parts; one thread unless said. Markdown goes
+//! Times that have a target, and those of whole runs and their parts; one thread unless stated. Markdown goes
 //! to standard output and to `benches/results/timings.md`.
 
 #![allow(clippy::unwrap_used, reason = "a measurement stops at the first surprise")]
@@ -41,7 +41,8 @@ const RUNS: usize = 11;
 
 fn main() {
     common::on_one_thread();
-    let mut page = format!("# Timings\n\n{}; 45°.\n\n| what | took | target |\n|---|---|---|\n", machine());
+    let mut page =
+        format!("# Timings\n\n{}; 45°.\n\n| what | measured | target |\n|---|---|---|\n", machine());
     let work = tempfile::tempdir().unwrap();
     kernels(&mut page);
     estimates(&mut page, work.path());
@@ -117,7 +118,7 @@ fn batches(page: &mut String, work: &Path) {
     let [once, often] = [&few, &many].map(|path| run("vestimate", &["-j", "2", path.to_str().unwrap()]));
     let rate = 4.0 * count as f64 / often.0.as_secs_f64();
     let took =
-        format!("{rate:.0} samples/s; {} MB, of a quarter of them {} MB", often.1 / 1000, once.1 / 1000);
+        format!("{rate:.0} samples/s; {} MB, for a quarter of them {} MB", often.1 / 1000, once.1 / 1000);
     line(page, &format!("vestimate -j 2, {} samples", 4 * count), &took, "1500 samples/s, memory flat");
 }
 
@@ -158,8 +159,8 @@ fn photograph(page: &mut String, work: &Path) {
     line(page, "vextract, 24 million pixels, 16-bit TIFF of 144 MB, medians of 5", &said, "1.4, 1.2, 216 MB");
 }
 
-/// A photograph that an ideal fold does not explain, as another camera took it than the one told: everything
-/// is fitted.
+/// A photograph that an ideal fold does not explain, as another camera took it than the one stated:
+/// everything is fitted.
 fn real_sheet(page: &mut String, work: &Path) {
     const PHOTOGRAPHS: usize = 20;
     let path = work.join("sheets.ndjson");
@@ -174,7 +175,7 @@ fn real_sheet(page: &mut String, work: &Path) {
     let took = median((0..5).map(|_| one()).collect()) / PHOTOGRAPHS as f64;
     line(
         page,
-        "vestimate -j 1, a photograph with everything unknown and another camera, mean of 20",
+        "vestimate -j 1, a photograph with everything unknown and another camera stated, mean of 20",
         &milliseconds(took),
         "60 ms",
     );

@@ -95,7 +95,7 @@ fn visibility() -> String {
     };
     let skip = Skip::new(
         "visibility tests",
-        "two half-spaces a pair of facets and its ray against all 200, then the kernel",
+        "two half-spaces per pair of facets and its ray against all 200, then the kernel",
         "the kernel: panels of a fold see each other whole",
     );
     skip.row(tested, || block(&form_factors(&fold)))
@@ -152,7 +152,7 @@ fn every_pair(n: usize) -> Vec<f64> {
 fn repeated_pairs(n: usize) -> String {
     let skip = Skip::new(
         format!("repeated pairs, {n}x{n}"),
-        format!("each of the {} pairs, both ways", n.pow(4)),
+        format!("each of the {} pairs, in both directions", n.pow(4)),
         format!("{} distinct entries: shift, mirror, reciprocity", n * n * (n + 1) / 2),
     );
     let both = || {

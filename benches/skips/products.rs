@@ -31,7 +31,7 @@ fn by_fft(n: usize) -> String {
 
 /// The table of times by the number of facets.
 pub fn break_even() -> String {
-    let mut page = String::from("Products by FFT, by the facets along a side, microseconds:\n\n");
+    let mut page = String::from("Products by FFT, by number of facets along a side, microseconds:\n\n");
     page += "| facets | by entries | by FFT | transforming the kernel | 13 products by entries / by FFT |\n\
              |---|---|---|---|---|\n";
     for n in SIDES {
