@@ -129,7 +129,7 @@ fn table(all: &[Known]) -> Result<()> {
     let usual = quality(all, Priors::USUAL)?;
     println!("| number | value | half: score | error | double: score | error |\n|---|---|---|---|---|---|");
     println!(
-        "| all as they are: score {:.3}, error {:.4}, within two sd {:.0} % | | | | | |",
+        "| unchanged: score {:.3}, error {:.4}, within two sd {:.0} % | | | | | |",
         usual.score,
         usual.rmse,
         100.0 * usual.within_two_sd

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What each number that is believed of photographs does to estimates, half and double of it, on the photographs and materials that they are fitted on:
-# benches/results/photograph-priors.md, in ten minutes. `--fit [NAME...]` changes numbers, or these, as long as that brings more, and prints what it found.
+# What half and double of each number in the priors of photographs do to estimates, on the photographs and materials that they are fitted to:
+# benches/results/photograph-priors.md, in ten minutes. `--fit [NAME...]` changes numbers, or these, as long as the score rises, and prints those changed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/machine.sh
@@ -20,14 +20,14 @@ if [ "${1:-}" = --fit ]; then
     exit
 fi
 {
-    echo '# What is believed of photographs'
+    echo '# Priors of photographs'
     echo
     machine "$bin/vkernel"
     echo
-    echo 'Every number of `src/estimate/photograph/priors.rs`, and what half and double of it do on what numbers are fitted on: the 48 photographs of `train`, and'
-    echo 'folds of six measured materials, each left out of the table of measured sheets, with their exposure and without; of a mean, half of its standard'
-    echo 'deviation less and more. Score: mean logarithm of the density that the posterior has at the truth, waveband by waveband, more being better, the difference'
-    echo 'from the first row; error: RMSE in the mean. Photographs on which nothing is fitted are in [sheets](sheets.md).'
+    echo 'Every number of `src/estimate/photograph/priors.rs`, and what half and double of it do to what the numbers are fitted to: the 48 photographs of `train`,'
+    echo 'and folds of six measured materials, each left out of the table of measured sheets, with exposure known and free. A mean is moved by half its standard'
+    echo 'deviation, down and up. Score: mean logarithm of the posterior density at the truth, waveband by waveband, as a difference from the first row; more is'
+    echo 'better. Error: mean RMSE. Photographs to which nothing is fitted are in [sheets](sheets.md).'
     echo
     cargo bench --quiet --bench photograph_priors -- "$work"/*.ndjson
 } | tee "$page.new"

@@ -1,5 +1,5 @@
 //! What the prior is worth: mean RMSE of the samples on standard input, which carry their true reflectance,
-//! with the Munsell chips alone and with all kinds of the built-in prior. `benches/priors.sh` makes a table
+//! with the Munsell chips alone and with all classes of the built-in prior. `benches/priors.sh` makes a table
 //! of it.
 
 #![allow(clippy::print_stdout, reason = "a measurement for the reader of a terminal")]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Mean RMSE on sets that the prior was not made of, with the Munsell chips alone and with all kinds: benches/results/priors.md.
-# Further sets are CSV files given as arguments.
+# Mean RMSE on sets that the prior was not made of, with the Munsell chips alone and with all classes: benches/results/priors.md.
+# Further sets are CSV files named as arguments.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/machine.sh
@@ -23,10 +23,10 @@ rows() {
     echo
     machine "$bin/vkernel"
     echo
-    echo '45°, 10 x 10 facets a panel, Canon EOS 5D Mark II, D65, exposure known; mean RMSE. "Chips alone" are the Munsell chips as the prior.'
-    echo 'sets.md has more sets, through more cameras.'
+    echo '45°, 10 x 10 facets a panel, Canon EOS 5D Mark II, D65, exposure known; mean RMSE with the Munsell chips alone as the prior, and with all classes of'
+    echo 'the built-in one. [Sets](sets.md) has more sets, through more cameras.'
     echo
-    echo '| set | facet noise | chips alone | all kinds |'
+    echo '| set | facet noise | chips alone | all classes |'
     echo '|---|---|---|---|'
     rows "$@"
 } | tee "$page.new"

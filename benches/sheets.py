@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Photographs of real sheets: how near estimates are, how often error bars hold and how long they take, as rows of a table.
+"""Photographs of real sheets: errors of estimates, how often error bars hold, and times, as rows of a table.
 
     sheets.py TOOLS SHARED SET.csv...        TOOLS: folder of the tools; SHARED: folder of `real`, `sky`, `ground` and `materials`
 
-First those that others rendered or measured, then forty sheets drawn of each set, which vforward photographs: gloss, rough bodies, a blue
-sky, a warm sun and a camera of which another measurement is told; angle, tilt, light and corners are told as a user knows them, of half of
-them the exposure, too.
+First those that were rendered or measured without vfold, then forty sheets drawn from each set, rendered by vforward: gloss, rough bodies, a
+blue sky, a warm sun and a camera of which another measurement is stated; angle, tilt, light and corners are stated as a user knows them, of
+half of them the exposure, too.
 """
 
 import json
@@ -32,7 +32,7 @@ GIVEN = [
     ("rendered, other grounds", of_real, "ground/*.json", []),
     ("measured materials", of_material, "materials/*.json", ["--exposure", "1"]),
 ]
-# kinds of days among those that others rendered; of the first without a chart alone
+# days among the rendered photographs; of the first, only photographs without a chart
 DAYS = [
     ("clear sky", ["real/all_*.json", "real/more/*.json", "real/pairs/*.json"]),
     ("haze, thin cloud", ["sky/k02.json", "sky/k06.json", "sky/k08.json"]),
@@ -42,7 +42,7 @@ DAYS = [
 
 
 def simulated(tools, cameras, spec, draw, work):
-    """Records of a sheet that vforward photographs, its truth, and the exposure if that is told."""
+    """Records of a sheet that vforward photographs, its truth, and the exposure if that is stated."""
     angle_deg, exposure = draw.uniform(44, 72), draw.uniform(0.4, 0.9)
     true_camera, told_camera = cameras
     sky, tilt_deg = draw.uniform(0.05, 0.15), draw.gauss(0, TILT_SD_DEG)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Photographs of real sheets: those of SHARED (../shared), then forty of every set (CSV file) given as an argument, which vforward takes:
-# how near, how often bars hold and how long it takes: benches/results/sheets.md, in three minutes. Two more sets come from the package luxpy,
+# Photographs of real sheets: those of SHARED (../shared), then forty of every set (CSV file) named as an argument, rendered by vforward:
+# errors, how often error bars hold, and times: benches/results/sheets.md, in three minutes. Two more sets come from the package luxpy,
 # if pip can install it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -24,14 +24,14 @@ unseen=$(unseen_sets "$work" cri2012 tm30_kept) && left_out= || left_out="luxpy 
     echo
     echo "$made_by"
     echo
-    echo 'Rendered photographs and folds of measured materials, which others made (`real`, `sky`, `ground`, `materials`); then forty sheets drawn of each set, which vforward'
-    echo 'photographs: gloss and a rough body, a blue sky, a sun of 5100 to 5500 K, and a camera of which another measurement is told; the angle is told within'
-    echo '1.2°, the tilt not at all, the light as D50, D55 or D65, corners within half a pixel, the exposure of half of them within 5 %. Default options.'
-    echo 'Far: estimates further off than 0.1. Within: per cent of true values within one and two standard deviations. Median: ms, one thread, the whole'
-    echo 'of vestimate. That a loose fit is not believed was found in draws of paints and natural surfaces; nothing was chosen with tm30_kept in view.'
+    echo 'Rendered photographs and folds of measured materials, not made by vfold (`real`, `sky`, `ground`, `materials`); then forty sheets drawn from each set,'
+    echo 'rendered by vforward: gloss and a rough body, a blue sky, a sun of 5100 to 5500 K, and a camera of which another measurement is stated; the angle is'
+    echo 'stated within 1.2°, the tilt not, the light as D50, D55 or D65, corners within half a pixel, the exposure of half of them within 5 %. Default options.'
+    echo 'Far: estimates off by more than 0.1. Within: per cent of true values within one and two standard deviations. Median: ms, one thread, the whole of'
+    echo 'vestimate. That a loose fit is not trusted was decided with draws of paints and natural surfaces in view; nothing was chosen with tm30_kept in view.'
     [ -z "$left_out" ] || echo "$left_out"
     echo
-    echo '| photographs | count | RMSE | far | within | median |'
+    echo '| photographs | count | RMSE | far | within | median, ms |'
     echo '|---|---|---|---|---|---|'
     python3 -B benches/sheets.py "$bin" "$shared" "$@" $unseen
 } | tee "$page.new"

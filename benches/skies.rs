@@ -54,7 +54,7 @@ fn rms(values: &[f64]) -> f64 {
 }
 
 fn main() {
-    println!("| type | left over | of it between the panels | within them |\n|---|---|---|---|");
+    println!("| type | remainder | between the panels | within them |\n|---|---|---|---|");
     for number in TYPES {
         let (mut left, mut between, mut within) = (Vec::new(), Vec::new(), Vec::new());
         for angle_deg in ANGLES_DEG {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What estimates are worth when things get hard, as tables in benches/results/stress.md: RMSE, CIEDE2000 and time of an estimate
-# (whole process, one thread, processor time), the default beside the paper's estimator. About three minutes. TOOLS is a folder of tools to
+# (whole process, one thread, processor time), of the default and of the paper's estimator. About three minutes. TOOLS is a folder of tools to
 # take as they are.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -23,10 +23,10 @@ photograph() {
     vkernel $1 | vforward --noise-sd "${3:-1e-3}" $2 >photograph.ndjson
 }
 
-# believe KERNEL-FLAGS FORWARD-FLAGS: the same facets, but the scene is thought to be another one.
-believe() {
-    { vkernel $1 | vforward --reflectance 0.5 $2 | head -n 1; tail -n +2 photograph.ndjson; } >believed.ndjson
-    mv believed.ndjson photograph.ndjson
+# state KERNEL-FLAGS FORWARD-FLAGS: the same facets, but another scene is stated.
+state() {
+    { vkernel $1 | vforward --reflectance 0.5 $2 | head -n 1; tail -n +2 photograph.ndjson; } >stated.ndjson
+    mv stated.ndjson photograph.ndjson
 }
 
 # score FLAGS: "RMSE / CIEDE2000, ms |" of estimates made with them.
@@ -76,7 +76,7 @@ angle() {
 }
 
 exposure() {
-    table 'Exposure' 'white facing the sun; noise stays' 'known' 'fitted' "paper's, known" "paper's, by sums"
+    table 'Exposure' 'white facing the sun; noise unchanged' 'known' 'fitted' "paper's, known" "paper's, by sums"
     for exposure in 0.03 0.1 0.3 1 3; do
         printf '| %s |' $exposure
         photograph '' "--reflectance cc24 --exposure $exposure"
@@ -89,12 +89,12 @@ exposure() {
 }
 
 sky() {
-    table 'Skylight of 10000 K' 'sky, of the sun' 'known' 'not known' 'fitted' "paper's, not known"
+    table 'Skylight of 10000 K' 'sky, of the sun' 'known' 'ignored' 'fitted' "paper's, ignored"
     for sky in 0 0.05 0.1 0.2 0.4; do
         printf '| %s |' $sky
         photograph "--sky $sky" '--reflectance cc24 --sky-illuminant daylight:10000'
         score
-        believe '' ''
+        state '' ''
         score
         score --fit sky
         papers
@@ -103,12 +103,12 @@ sky() {
 }
 
 tilt() {
-    table 'Sun off the bisecting plane' 'tilt, °' 'known' 'not known' 'fitted' "paper's, not known"
+    table 'Sun off the bisecting plane' 'tilt, °' 'known' 'ignored' 'fitted' "paper's, ignored"
     for tilt in 0 2 5 10 20; do
         printf '| %s |' $tilt
         photograph "--tilt-deg $tilt" '--reflectance cc24'
         score
-        believe '' ''
+        state '' ''
         score
         score --fit tilt
         papers
@@ -117,7 +117,7 @@ tilt() {
 }
 
 reflectance() {
-    table 'Mean reflectance: the patches, each raised to the power that makes it so' 'mean' 'default' "paper's"
+    table 'Mean reflectance: each patch raised to the power that gives it' 'mean' 'default' "paper's"
     for mean in 0.03 0.1 0.3 0.5 0.8 0.95; do
         printf '| %s |' $mean
         # By bisection, a column at a time.
@@ -149,7 +149,7 @@ reflectance() {
 }
 
 channels() {
-    table 'Channels: Gaussian, evenly spaced, as wide as their distance' 'channels' 'default' "paper's"
+    table 'Channels: Gaussian, evenly spaced, as wide as their spacing' 'channels' 'default' "paper's"
     for channels in 1 2 3 4 6 8 12; do
         printf '| %s |' $channels
         awk -v channels=$channels 'BEGIN {
@@ -178,9 +178,9 @@ channels() {
     cat <<'END'
 
 ColorChecker (24 patches), Canon EOS 5D Mark II, D65, 45°, 10 x 10 facets a panel, facet noise 1e-3 of white and the exposure known,
-but for what a table varies. Mean RMSE / mean CIEDE2000 (10°, D65), processor time of an estimate: that of the whole process, start and
-prior included, shared by 24; sheets that no reflectance explains are refused, and left out. "Paper's" is `--prior smooth`, with the
-weight of smoothness that suits a noise of 1e-3 best (1e-3).
+except for what a table varies. Mean RMSE / mean CIEDE2000 (10°, D65), processor time per estimate: that of the whole process, start and
+prior included, over 24; sheets that no reflectance explains are refused and left out. Ignored: the scene states none. "Paper's" is
+`--prior smooth`, with the weight of smoothness that is best at a noise of 1e-3 (1e-3).
 END
     noise
     angle
@@ -190,8 +190,8 @@ END
     reflectance
     cat <<'END'
 
-Where the default is behind, at 0.8 and 0.95, it is so below 420 nm alone: bright paints, of which most of the prior is made, absorb there
-(titanium white), these powers do not, and the camera sees next to nothing of it.
+At 0.8 and 0.95 the default is behind because of wavelengths below 420 nm alone: bright paints, which make up most of the prior, absorb there
+(titanium white), these powers do not, and the camera sees next to nothing there.
 END
     channels
 } | tee "$page.new"
