@@ -14,20 +14,21 @@ const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/results/extreme
 const HEAD: &str = "\
 # Extremes
 
-What a row does not say is 45°, square panels of 10 x 10 facets, a Canon EOS 5D Mark II and D65. \
-First the bounds that
+Unless a row states otherwise: 45°, square panels of 10 x 10 facets, a Canon EOS 5D Mark II and \
+D65. First the bounds that
 `cargo test --test extremes` holds, then what was measured:
 
-- facets without noise, off by so much of the brightest. \
-The sheet reflects 0.9, the row's reflectance, or is `cc24:red` (lights and
-  cameras). One flat patch per facet, solved to 1e-9, beside NumPy's form factors \
-(Sparrow's double integral) and conjugate gradients;
-  \"undivided\" is `--mesh auto` beside the limit of NumPy's patches, \
-that of panels 1000 times as wide as deep along a crease without end;
-- RMSE of an estimate from facets with a noise of 1e-3 of white, exposure known, \
-of `cc24:red` or the row's reflectance;
-- root mean square of its errors in units of their standard deviations;
-- seconds of the four tools, photographing twice. They are not promised.
+- facets: largest error of facets without noise, over the brightest. The sheet reflects 0.9, the \
+row's reflectance, or is `cc24:red`
+  (lights and cameras). One flat patch per facet, solved to 1e-9, against NumPy: form factors by \
+Sparrow's double integral, conjugate
+  gradients. \"Undivided\" is `--mesh auto` against the limit of NumPy's patches, for panels 1000 \
+times as wide as deep along an endless
+  crease;
+- RMSE of an estimate from facets with a noise of 1e-3 of white, exposure known, of `cc24:red` or \
+the row's reflectance;
+- deviations: root mean square of its errors in units of their standard deviations;
+- s: seconds of the four tools, vforward twice. They are not promised.
 
 | | facets | RMSE | deviations | facets | RMSE | deviations | s |
 |---|---|---|---|---|---|---|---|

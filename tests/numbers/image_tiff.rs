@@ -19,10 +19,10 @@ const HEAD: &str = "\
 has OpenImageIO and vfold read it, and compares all pixels: strips or
 tiles; samples side by side or a plane each; uncompressed, PackBits, LZW, Deflate; \
 without predictor, with differences (2), with that of floats
-(3); in turns little-endian and big-endian. \
-A cell has how many files gave the same numbers within 1e-6, or were refused, and why. Where
-OpenImageIO reads a file otherwise than the same picture in strips, or not at all \
-(2.4: floats of 64 bits in tiles), its numbers are those of the
+(3); alternately little-endian and big-endian. A cell counts the files that give the same numbers \
+within 1e-6, or are refused, with the reason. Where
+OpenImageIO reads a file differently from the same picture in strips, or not at all (2.4: 64-bit \
+floats in tiles), vfold's numbers must be those of the
 strips; the test prints how many these are.
 
 ";
@@ -164,7 +164,7 @@ fn page(files: &[Made], came: &[Came]) -> String {
     }
     let same = came.iter().filter(|came| ***came == Came::Same).count();
     let mut page = format!(
-        "{HEAD}{} files: {same} are the same, {} are refused.\n\n| samples are | a pixel has | {} |\n\
+        "{HEAD}{} files: {same} the same, {} refused.\n\n| samples | channels | {} |\n\
          |---|---|---|---|---|---|\n",
         files.len(),
         files.len() - same,
