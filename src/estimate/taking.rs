@@ -34,11 +34,12 @@ impl Stated {
 
 impl fmt::Display for Stated {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let whose = if self.is_daylight_assumed { ", which was assumed," } else { "" };
         let scaled =
             if self.has_one_peak { ", whose channels are each scaled to the same peak," } else { "" };
-        if !self.lights.is_empty() {
-            write!(f, "the light {}{whose} and ", self.lights.join(", "))?;
+        if self.is_daylight_assumed {
+            f.write_str("daylight, which was assumed, and ")?;
+        } else if !self.lights.is_empty() {
+            write!(f, "the light {} and ", self.lights.join(", "))?;
         }
         write!(f, "the camera {}{scaled}", self.camera)
     }

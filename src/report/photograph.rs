@@ -102,22 +102,22 @@ fn light(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
         return Ok(None);
     }
     let Some(name) = scene.illuminants()?.into_iter().next().map(|light| light.name) else { return Ok(None) };
+    if !scene.is_daylight_assumed()? {
+        return Ok(Some(["light".to_owned(), name, "computed from place and time in the photograph".to_owned()]));
+    }
     let number = |field: &str| -> Result<Option<f64>> {
         Ok(sample
             .fields
             .text_at(&format!("estimate.fit.sun_cct_k.{field}"))?
             .and_then(|text| text.parse().ok()))
     };
-    let sure = match (scene.is_daylight_assumed()?, number("value")?, number("sd")?) {
-        (true, Some(value), Some(sd)) => {
-            format!("daylight is assumed; its colour was fitted: {} K", with_sd(value, sd))
-        }
-        (true, ..) => {
-            "daylight is assumed: the photograph does not say where and when it was taken".to_owned()
-        }
-        (false, ..) => "computed from place and time in the photograph".to_owned(),
+    let is_shown = sample.fields.text_at("estimate.fit.sun_cct_k.supported")?.is_some_and(|is| is == "true");
+    let sure = if is_shown { "assumed; its colour was fitted" } else { "assumed: the picture does not show it" };
+    let value = match (number("value")?, number("sd")?) {
+        (Some(value), Some(sd)) => format!("daylight of {} K", with_sd(value, sd)),
+        _ => name,
     };
-    Ok(Some(["light".to_owned(), name, sure]))
+    Ok(Some(["light".to_owned(), value, sure.to_owned()]))
 }
 
 /// The kind of day.

@@ -63,7 +63,7 @@ fn daylight_is_assumed_aloud() {
     ] {
         let run = folder.sh(&format!("{SETUP}\n{picture}; sh extract"));
         assert_eq!(illuminant(&run), "D65", "{picture}");
-        assert!(of_light(&run).starts_with("vextract: daylight assumed, D65: "), "{}", run.stderr);
+        assert!(of_light(&run).starts_with("vextract: daylight assumed: "), "{}", run.stderr);
         assert!(run.stderr.contains(why), "{picture}: {}", run.stderr);
     }
 }

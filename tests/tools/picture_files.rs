@@ -287,7 +287,7 @@ fn places_and_times_that_are_none() {
         let line = format!("extract {FILES}/place_all_zeros.tif | head -n 1");
         let run = sh(&folder, &line);
         assert!(
-            run.stderr.contains("daylight assumed, D65: the photograph does not say where it was taken"),
+            run.stderr.contains("daylight assumed: the photograph does not say where it was taken"),
             "{}",
             run.stderr
         );

@@ -24,7 +24,7 @@ pub fn optics(stated: &OpticsArgs, path: &Path, first: Option<&Photograph>) -> (
             note
         }
         LightTaken::Daylight(why) => {
-            format!("daylight assumed, D65: {why}; if it was another light, give --illuminant")
+            format!("daylight assumed: {why}; if it was another light, give --illuminant")
         }
         LightTaken::OtherThanDaylight(why) => {
             optics.illuminant = vec![UNKNOWN_LIGHT.to_owned()];

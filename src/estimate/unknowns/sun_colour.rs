@@ -35,20 +35,21 @@ pub static SUN_COLOUR: Unknown = Unknown {
 };
 
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
-    Ok(scene.daylight.map(|nominal| of_daylight(nominal, &Priors::USUAL)))
+    Ok(scene.daylight.map(|nominal| of_daylight((nominal, scene.is_daylight_assumed), &Priors::USUAL)))
 }
 
 fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
     let shown = stated.shown.and_then(|shown| shown.sun[stated.day as usize]);
-    stated.daylight.map(|nominal| shown.unwrap_or_else(|| of_daylight(nominal, stated.priors)).into())
+    let usual = |nominal| of_daylight((nominal, stated.is_daylight_assumed), stated.priors);
+    stated.daylight.map(|nominal| shown.unwrap_or_else(|| usual(nominal)).into())
 }
 
-fn of_daylight(nominal: Daylight, priors: &Priors) -> Normal {
-    let mean = match nominal {
-        Daylight::Cie { .. } => priors.sun_mired,
-        Daylight::OfSun { mired } => mired,
-    };
-    Normal { mean, sd: priors.sun_mired_sd }
+fn of_daylight((nominal, is_assumed): (Daylight, bool), priors: &Priors) -> Normal {
+    match nominal {
+        _ if is_assumed => Normal { mean: priors.unstated_sun_mired, sd: priors.unstated_sun_mired_sd },
+        Daylight::Cie { .. } => Normal { mean: priors.sun_mired, sd: priors.sun_mired_sd },
+        Daylight::OfSun { mired } => Normal { mean: mired, sd: priors.sun_mired_sd },
+    }
 }
 
 /// Every sun becomes three of different colours.
