@@ -12,7 +12,7 @@ use super::linear::{Linear, Start, candidates};
 use super::most_evidence::{APART, of_most_evidence};
 use super::prior::{Class, Prior};
 use crate::solve::Termination;
-use crate::solve::posterior::{Iteration, Model, find_mode, first_tempering};
+use crate::solve::posterior::{Iteration, Limits, Model, find_mode, first_tempering};
 
 /// Tolerance of modes searched from the means of classes, in standard deviations.
 const TOLERANCE_FROM_MEANS: f64 = 0.3;
@@ -76,19 +76,23 @@ pub fn between_means<F: Family>(
         FromMeans { hypothesis, means: MEANS, noise, limit: QUICK_LIMIT, coordinates: QUICK_COORDINATES };
     let fine = FOLLOWED_TEMPERING * fine;
     let mut left = ESTIMATE_LIMIT.saturating_sub(iterations).max(FOLLOWED_LIMIT);
-    let follow = |start: Start<F::Hypothesis>| {
-        let model = family.model(hypothesis, &start.gaussian)?;
-        let noise = (start.tempering, fine);
-        let found = find_mode(&model, start.w, noise, FOLLOWED_TOLERANCE, FOLLOWED_LIMIT.min(left));
-        left -= found.trace.len();
-        let ln_evidence = start.ln_share + found.ln_evidence(fine)?;
-        let has_converged = matches!(found.termination, Termination::Converged { .. });
-        trace.push(found.trace);
+    let mut places: Vec<Start<F::Hypothesis>> = Vec::new();
+    for start in quick.starts(family, prior).into_iter().take(FOLLOWED) {
+        let Some(model) = family.model(hypothesis, &start.gaussian) else { continue };
+        // a place that will not be among those looked at is abandoned
+        let least = places.get(PLACES - 1).map_or(f64::NEG_INFINITY, |place| place.ln_evidence);
+        let limits =
+            Limits { iterations: FOLLOWED_LIMIT.min(left), ln_evidence: least - start.ln_share };
+        let found = find_mode(&model, start.w, (start.tempering, fine), FOLLOWED_TOLERANCE, limits);
         drop(model);
-        has_converged.then_some(Start { ln_evidence, tempering: fine, w: found.w, ..start })
-    };
-    let quick = quick.starts(family, prior).into_iter();
-    let places = distinct(quick.take(FOLLOWED).filter_map(follow).collect());
+        left -= found.trace.len();
+        let ln_evidence = found.ln_evidence(fine).map(|of_facets| start.ln_share + of_facets);
+        trace.push(found.trace);
+        if let (Some(ln_evidence), Termination::Converged { .. }) = (ln_evidence, found.termination) {
+            places.push(Start { ln_evidence, tempering: fine, w: found.w, ..start });
+            places = distinct(places);
+        }
+    }
     let classes = |start: Start<F::Hypothesis>| {
         let model = family.model(hypothesis, &start.gaussian)?;
         let linear =

@@ -65,6 +65,14 @@ pub struct Conditions {
     pub sheen: f64,
 }
 
+impl Conditions {
+    /// Whether sky and ground light the facets as under `other` conditions, in whatever amounts and colours.
+    pub(super) fn distribute_alike(&self, other: &Self) -> bool {
+        let places = |of: &Self| [of.cloud, of.elevation_deg, of.angle_deg, of.bow_deg, of.crease_radius];
+        places(self) == places(other)
+    }
+}
+
 /// Everything stated about a photograph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedScene {

@@ -42,7 +42,8 @@ pub struct Predicted<'a> {
     /// The lens.
     pub lens: Lens,
     lighting: Lighting,
-    /// That of the sun comes first.
+    conditions: Conditions,
+    /// That of the sun comes first, those of sky and ground next if it is daylight.
     pub lights: Vec<Light<'a>>,
 }
 
@@ -72,7 +73,8 @@ impl Predicted<'_> {
 impl<'a> Predictor<'a, '_> {
     /// The facets of a sheet whose radiance exceeds that of a Lambertian one by `beyond`.
     pub fn facets(&self, conditions: &Conditions, beyond: &Radiance) -> Predicted<'a> {
-        self.in_light(conditions, sunlit(self.parts, conditions, beyond))
+        let sunlit = Cow::Owned(sunlit(self.parts, conditions, beyond));
+        self.in_light(conditions, sunlit, self.surroundings(conditions))
     }
 
     /// Values of the facets near `here`, under conditions that differ only in the part named by `whose`; the
@@ -92,14 +94,40 @@ impl<'a> Predictor<'a, '_> {
                 add_product(&mut radiances, &more, &sun.to_channels);
                 here.lens.seen(radiances)
             }
-            // the radiance includes the sun's amount
-            Whose::Light => self.in_light(conditions, sun.radiance.clone().into_owned()).values,
+            Whose::Light => {
+                let surroundings = match &here.lights[..] {
+                    [_, sky, ground, ..] if conditions.distribute_alike(&here.conditions) => {
+                        Some([sky, ground].map(|light| Cow::Borrowed(light.radiance.as_ref())))
+                    }
+                    _ => self.surroundings(conditions),
+                };
+                // the radiance includes the sun's amount
+                self.in_light(conditions, Cow::Borrowed(sun.radiance.as_ref()), surroundings).values
+            }
             Whose::Scene => self.facets(conditions, beyond).values,
             Whose::Lens => Lens::new(self.parts, conditions, &here.lighting).seen(here.radiances.clone()),
         }
     }
 
-    fn in_light(&self, conditions: &Conditions, sunlit: Radiance) -> Predicted<'a> {
+    /// Light of the sky and of the ground on the facets, for an amount of 1; `None` if it is no daylight.
+    fn surroundings<'l>(&self, conditions: &Conditions) -> Option<[Cow<'l, Radiance>; 2]> {
+        let Parts { stated, surroundings, .. } = self.parts;
+        stated.daylight.is_some().then(|| {
+            let Surroundings { clear, overcast, ground } = surroundings.as_ref();
+            let of = |all: &[(&Ambient, f64)]| Cow::Owned(ambient(conditions, all, stated.angle_deg));
+            [of(&[(clear, 1.0 - conditions.cloud), (overcast, conditions.cloud)]), of(&[(ground, 1.0)])]
+        })
+    }
+
+    fn in_light<'l>(
+        &self,
+        conditions: &Conditions,
+        sunlit: Cow<'l, Radiance>,
+        surroundings: Option<[Cow<'l, Radiance>; 2]>,
+    ) -> Predicted<'l>
+    where
+        'a: 'l,
+    {
         let Self { parts, terms, sensitivities } = self;
         let lighting = Lighting::new(parts, conditions);
         let light = |radiance, power: DVector<f64>| {
@@ -109,20 +137,9 @@ impl<'a> Predictor<'a, '_> {
             add_product(&mut to_channels, &terms.values, &weights);
             Light { radiance, power, weights, to_channels }
         };
-        let mut lights = vec![light(Cow::Owned(sunlit), lighting.sun.clone())];
-        if parts.stated.daylight.is_some() {
-            let [(sky, sky_power), (ground, ground_power)] = &lighting.ambient;
-            let Surroundings { clear, overcast, ground: below } = parts.surroundings.as_ref();
-            let of_sky = ambient(
-                conditions,
-                &[(clear, 1.0 - conditions.cloud), (overcast, conditions.cloud)],
-                parts.stated.angle_deg,
-            );
-            lights.push(light(Cow::Owned(of_sky), *sky * sky_power));
-            lights.push(light(
-                Cow::Owned(ambient(conditions, &[(below, 1.0)], parts.stated.angle_deg)),
-                *ground * ground_power,
-            ));
+        let mut lights = vec![light(sunlit, lighting.sun.clone())];
+        for (radiance, (amount, power)) in surroundings.into_iter().flatten().zip(&lighting.ambient) {
+            lights.push(light(radiance, *amount * power));
         }
         if conditions.even_sky > 0.0 {
             let power = conditions.even_sky * &lighting.ambient[0].1;
@@ -133,7 +150,8 @@ impl<'a> Predictor<'a, '_> {
         for light in &lights {
             add_product(&mut radiances, &light.radiance, &light.to_channels);
         }
-        Predicted { values: lens.seen(radiances.clone()), radiances, lens, lighting, lights }
+        let values = lens.seen(radiances.clone());
+        Predicted { values, radiances, lens, lighting, conditions: conditions.clone(), lights }
     }
 }
 
