@@ -133,13 +133,13 @@ pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doub
     let remedy = if stated.is_some() {
         "state --exposure as a fraction of the picture's white level, such as 0.8"
     } else {
-        "check the fold, its proportions, angle, corners and light; \
+        "check the fold, its proportions, angle, corners and light, and that the file is linear; \
          put a white card or a chart in the picture"
     };
     (!(-EXPOSURE_WRONG..=EXPOSURE_DOUBTFUL).contains(&off)).then(|| Doubt {
         level,
         because: format!(
-            "white facing the sun would be {exposure:.3} times the white level of the picture: \
+            "white facing the sun would be {exposure:.2} times the white level of the picture: \
              an improbable exposure"
         ),
         remedy: remedy.to_owned(),
