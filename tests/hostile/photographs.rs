@@ -15,6 +15,7 @@ fn photographs() {
         vkernel --angle-deg 50 --facets 2x2 -o scene.json
         cp '{PHOTO}' photo.exr
         echo 'this is no picture' > text.png
+        cp text.png text.nef
         : > empty.tif
         oiiotool photo.exr -d uint16 -o photo.tif
         oiiotool photo.exr -d uint16 -o photo.png
