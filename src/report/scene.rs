@@ -40,8 +40,8 @@ fn section(scene: &Scene) -> Result<Html> {
         parts.push(Html::element(
             "p",
             &[],
-            "These commands reproduce the records and this page when pasted into a shell, in the folder where \
-             they were run first:",
+            "These commands reproduce the records and this page when pasted into a shell, in the folder \
+             where they were run first:",
         ));
         parts.push(Html::element("pre", &[], Html::element("code", &[], Html::lines(&pipeline(&history)))));
         parts.push(folded("Versions of the tools", Html::table("Versions", &["tool", "version"], versions)));

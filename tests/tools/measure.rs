@@ -263,7 +263,8 @@ fn a_known_fold_corners_and_curve_are_handed_on() {
             "vextract --find photo.exr > found.json
             vkernel --regions found.json | vextract photo.exr --regions found.json {KNOWN} > known.ndjson
             echo '{{\"image\":\"other.exr\"}}' | cat - found.json > list.json
-            measure {KNOWN} --transfer linear --regions list.json --known-fold known.ndjson=cc24:magenta photo.exr
+            measure {KNOWN} --transfer linear --regions list.json \
+                --known-fold known.ndjson=cc24:magenta photo.exr
             cmp found.json vfold-photo/regions.json"
         ),
     );
