@@ -45,7 +45,7 @@ pub use measuring::{
 pub use numbers::{Development, ReadOptions, Transfer, srgb_to_linear};
 pub use photograph::{
     CameraNotes, FileStamp, FlatField, Mosaic, Orientation, OtherLight, Photograph, PhotographInfo, Pixel,
-    SensorInfo, Taken,
+    SensorInfo, Taken, camera_name,
 };
 pub use placing::{
     CHART_CORNERS, CameraPose, Framing, Grid, Homography, Lens, LensEstimate, PANEL_CORNERS, Point,

@@ -2,7 +2,7 @@
 
 use crate::camera::{ColourMatrix, PREDICTED_ERROR, Predictor, StandIn, StandIns};
 use crate::error::{Error, Result};
-use crate::image::PhotographInfo;
+use crate::image::{PhotographInfo, camera_name};
 use crate::spectrum::{self, Sensitivities, Spectrum, WavelengthGrid};
 use crate::stream::StandInRecord;
 
@@ -41,15 +41,16 @@ impl Camera {
 /// [`Error::Usage`] if the photograph names no camera.
 pub fn camera_of(info: &PhotographInfo) -> Result<Camera> {
     let (make, model) = &info.camera.called();
+    let of = camera_name(make, model);
     if let Some(camera) = spectrum::camera_by_exif(make, model) {
         let same = spectrum::measured_cameras().any(|one| one.name() == camera && one.has_same_sensor(model));
         let note = match &spectrum::other_measurements(&camera)[..] {
-            _ if same => Some(format!("{make} {model}: curves of {camera}, whose sensor is the same")),
+            _ if same => Some(format!("{of}: using the sensitivities of {camera}, whose sensor is the same")),
             [] => None,
             others => {
-                let others = others.join(", ");
+                let others = others.join(" or ");
                 Some(format!(
-                    "{make} {model}: curves of {camera}; another measurement is {others} (--camera)"
+                    "{of}: using the sensitivities {camera}; for the other measurement give --camera {others}"
                 ))
             }
         };
@@ -57,10 +58,9 @@ pub fn camera_of(info: &PhotographInfo) -> Result<Camera> {
     }
     if model.is_empty() {
         const REMEDY: &str =
-            "name one (--list cameras), or give a CSV file or rawtoaces JSON of its sensitivities";
+            "name one (vextract --list cameras), or give a CSV file or rawtoaces JSON of its sensitivities";
         return Err(Error::usage("--camera", "the photograph names no camera", REMEDY));
     }
-    let of = format!("{make} {model}").trim().to_owned();
     let predicted = info.camera.xyz_to_camera.map(|matrix| predicted(make, &of, &matrix)).transpose()?;
     if let Some(camera) = predicted.flatten() {
         return Ok(camera);

@@ -10,7 +10,7 @@ use super::figure::{COLOURS, Drawn, FONT, Figure};
 
 /// Most curves in one drawing: more would be indistinguishable.
 pub const CURVES_MAX: usize = COLOURS.len();
-const SIZE: (u32, u32) = (760, 430);
+const SIZE: (u32, u32) = (760, 438);
 
 /// One estimated spectrum.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ impl Figure for Spectra<'_> {
         let mut chart = ChartBuilder::on(area)
             .margin(14)
             .margin_right(24)
-            .x_label_area_size(42)
+            .x_label_area_size(50)
             .y_label_area_size(56)
             .build_cartesian_2d(ends(curves()), 0.0..top(curves()))?;
         chart

@@ -7,11 +7,6 @@ use crate::colorimetry::{Colorimeter, Colour, Observer};
 use crate::error::Result;
 use crate::stream::{EstimateRecord, Scene};
 
-/// Names of the coordinates.
-const XYZ: [&str; 3] = ["X", "Y", "Z"];
-const LAB: [&str; 3] = ["L*", "a*", "b*"];
-const SRGB: [&str; 3] = ["R", "G", "B"];
-
 /// Appearance of the sheet under the page's illuminant; none if its colours cannot be computed, as with a few
 /// wavelengths.
 pub(super) fn section(estimate: &EstimateRecord, scene: &Scene, view: &View) -> Result<Option<Html>> {
@@ -23,22 +18,22 @@ pub(super) fn section(estimate: &EstimateRecord, scene: &Scene, view: &View) -> 
     let colour = meter.colour(&estimate.reflectance);
     let sd = estimate.error_bars().map(|errors| meter.colour_sd(&estimate.reflectance, errors));
     let [r, g, b] = bytes(&colour);
-    let row = |space: &str, names: [&str; 3], pick: fn(&Colour) -> [f64; 3]| {
+    let row = |space: &str, pick: fn(&Colour) -> [f64; 3]| {
         let value = |n: usize| {
             let (value, sd) = (pick(&colour)[n], sd.as_ref().map(|sd| pick(sd)[n]));
-            format!("{} {}", names[n], sd.map_or_else(|| digits(value, 0.0), |sd| with_sd(value, sd)))
+            sd.map_or_else(|| digits(value, 0.0), |sd| with_sd(value, sd))
         };
         std::iter::once(space.to_owned()).chain([0, 1, 2].map(value)).map(Html::from).collect::<Vec<_>>()
     };
     let rows = [
-        row("CIE XYZ, Y of white 100", XYZ, |colour| colour.xyz),
-        row("CIELAB", LAB, |colour| colour.lab),
-        row("sRGB, 0 to 1", SRGB, |colour| colour.srgb),
+        row("CIE XYZ, Y of white 100", |colour| colour.xyz),
+        row("CIELAB", |colour| colour.lab),
+        row("sRGB, 0 to 1", |colour| colour.srgb),
     ];
     let bars = if sd.is_some() { ", with standard deviations (upper bounds)" } else { "" };
     let (light, observer) = (view.illuminant.name(), observer(view.observer));
     let caption = format!("Colour under {light}, {observer} observer{bars}");
-    let numbers = Html::table(&caption, &["colour space", "", "", ""], rows);
+    let numbers = Html::table(&caption, &["colour space", "X, L*, R", "Y, a*, G", "Z, b*, B"], rows);
     let style = format!("background: rgb({r}, {g}, {b})");
     let swatch = Html::element(
         "span",

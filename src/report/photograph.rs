@@ -4,6 +4,7 @@ use super::html::Html;
 use super::tables::pairs;
 use super::words::{digits, rounded, utc, with_sd};
 use crate::error::Result;
+use crate::image::camera_name;
 use crate::stream::{HistoryRecord, Sample, Scene};
 
 /// Name, date and checksum of the photograph, which identify it.
@@ -17,12 +18,8 @@ pub(super) fn file(sample: &Sample) -> Result<Option<Html>> {
     let written = text("file_modified_s")?.and_then(|seconds| seconds.parse().ok());
     add("file last written", written.map(utc));
     add("SHA-256", text("sha256")?);
-    let camera = match (text("make")?, text("model")?) {
-        // most models begin with the maker's name
-        (Some(make), Some(model)) if !model.starts_with(&make) => Some(format!("{make} {model}")),
-        (make, model) => model.or(make),
-    };
-    add("camera", camera);
+    let camera = camera_name(&text("make")?.unwrap_or_default(), &text("model")?.unwrap_or_default());
+    add("camera", Some(camera).filter(|name| !name.is_empty()));
     add("image.stored_as", text("stored_as")?);
     Ok(Some(pairs("The photograph", rows)))
 }

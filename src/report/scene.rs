@@ -6,6 +6,7 @@ use super::Gallery;
 use super::command::pipeline;
 use super::html::Html;
 use super::tables::{folded, pairs};
+use super::words::words;
 use crate::error::Result;
 use crate::stream::Scene;
 
@@ -32,14 +33,15 @@ fn section(scene: &Scene) -> Result<Html> {
     let skipped: Vec<_> = scene
         .skipped()?
         .into_iter()
-        .map(|one| vec![one.what.into(), one.count.to_string().into(), one.why.into()])
+        .map(|one| vec![words(&one.what).into(), one.count.to_string().into(), one.why.into()])
         .collect();
     let mut parts = vec![Html::element("h2", &[], format!("How it was measured: scene {}", scene.id()?))];
     if !history.is_empty() {
         parts.push(Html::element(
             "p",
             &[],
-            "These commands reproduce the records and this page when pasted into a shell:",
+            "These commands reproduce the records and this page when pasted into a shell, in the folder \
+             where they were run first:",
         ));
         parts.push(Html::element("pre", &[], Html::element("code", &[], Html::lines(&pipeline(&history)))));
         parts.push(folded("Versions of the tools", Html::table("Versions", &["tool", "version"], versions)));

@@ -1,7 +1,7 @@
 //! Names of fields and numbers for people unfamiliar with the records.
 
-/// Fields by their dotted path with their names in reports; others keep their own.
-const WORDS: [(&str, &str); 21] = [
+/// Names in reports of fields, by their dotted path, and of work that was skipped; others keep their own.
+const WORDS: [(&str, &str); 32] = [
     ("rmse", "RMSE of the reflectance"),
     ("ciede2000", "colour difference, CIEDE2000"),
     ("method", "method"),
@@ -10,12 +10,19 @@ const WORDS: [(&str, &str); 21] = [
     ("residual_rms", "reduced chi: residuals of the facets over their expected size"),
     ("iterations", "iterations"),
     ("termination.reason", "why iterations ended"),
+    ("termination.gradient_norm", "slope that was left where iterations ended"),
+    ("day.kind", "kind of day"),
+    ("day.probability", "probability of that kind of day"),
+    ("noise.from", "where the noise is taken from"),
     ("noise.model_error", "error of the model, relative to a facet"),
     ("image.file", "photograph"),
     ("image.width", "width, px"),
     ("image.height", "height, px"),
     ("image.stored_as", "stored as"),
     ("image.transfer", "transfer curve that was undone"),
+    ("image.black_level", "stored number for no light"),
+    ("image.white_level", "stored number for 1"),
+    ("image.distortion", "lens distortion, K1 and K2"),
     ("image.make", "maker of the camera"),
     ("image.model", "camera"),
     ("image.exposure_s", "exposure time, s"),
@@ -23,6 +30,10 @@ const WORDS: [(&str, &str); 21] = [
     ("image.iso", "ISO"),
     ("image.margin_px", "distance kept from the panels' edges, px"),
     ("seed", "seed of the noise"),
+    ("form factors of a panel with itself", "exchange of light within a panel"),
+    ("equal form factors", "pairs of facets that exchange light as others do"),
+    ("form factors of facets", "exchange of light between single facets"),
+    ("modes", "patterns of bounces"),
 ];
 
 /// The name of a field in reports.
@@ -37,10 +48,15 @@ const DIGITS: i32 = 4;
 const DECIMALS_MAX: i32 = 9;
 /// Numbers from this on, and below its inverse, are written with an exponent.
 const LARGE: f64 = 1e7;
+/// Numbers below this are rounding errors of 0.
+const ROUNDING: f64 = 1e-12;
 
 /// A number with four significant digits, counted from its error bar if that is larger.
 pub(super) fn digits(value: f64, sd: f64) -> String {
     let size = value.abs().max(sd.abs());
+    if size > 0.0 && size < ROUNDING {
+        return "0".to_owned();
+    }
     if size > 0.0 && !(1.0 / LARGE..LARGE).contains(&size) {
         return format!("{value:.3e}");
     }
@@ -87,11 +103,11 @@ pub(super) fn utc(seconds: f64) -> String {
     format!("{year:04}-{month:02}-{day:02} {hour:02}:{minute:02}:{second:02} UTC")
 }
 
-/// A number with its standard deviation.
+/// A number with its standard deviation, on one line.
 pub(super) fn with_sd(value: f64, sd: f64) -> String {
     let value = digits(value, sd);
     let decimals = value.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    format!("{value} ± {sd:.decimals$}")
+    format!("{value}\u{a0}±\u{a0}{sd:.decimals$}")
 }
 
 #[cfg(test)]
@@ -100,6 +116,7 @@ mod tests {
 
     #[test]
     fn numbers_have_the_digits_that_count() {
+        let with_sd = |value, sd| with_sd(value, sd).replace('\u{a0}', " ");
         assert_eq!(with_sd(0.412_345, 0.0091), "0.4123 ± 0.0091");
         assert_eq!(with_sd(49.983, 0.065), "49.98 ± 0.07"); // an angle
         assert_eq!(with_sd(7957.0, 21.0), "7957 ± 21");
@@ -107,6 +124,7 @@ mod tests {
         assert_eq!(with_sd(0.000_001, 0.05), "0.00000 ± 0.05000");
         assert_eq!(digits(0.0, 0.0), "0.000");
         assert_eq!(digits(7.006_7e-9, 0.0), "7.007e-9");
+        assert_eq!(digits(-2.844e-143, 0.0), "0");
     }
 
     #[test]

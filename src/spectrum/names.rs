@@ -38,7 +38,8 @@ pub(super) fn unknown<'a>(what: What, name: &str, known: impl Iterator<Item = &'
     };
     let near = nearest(name, known);
     let meant = if near.is_empty() { String::new() } else { format!("did you mean {}? ", near.join(" or ")) };
-    let hint = format!("{meant}--list {list} shows all names, and a file needs its ending, such as .csv");
+    let hint =
+        format!("{meant}vextract --list {list} shows all names, and a file needs its ending, such as .csv");
     Error::UnknownName { kind, name: name.to_owned(), hint }
 }
 

@@ -308,10 +308,11 @@ mod tests {
         assert_eq!(
             message(illuminant("D56")),
             "no illuminant is called 'D56'; did you mean D50 or D55 or D60? \
-             --list illuminants shows all names, and a file needs its ending, such as .csv"
+             vextract --list illuminants shows all names, and a file needs its ending, such as .csv"
         );
         assert!(message(reflectances("cc24:redd")).contains("did you mean cc24:red "));
-        assert!(message(camera("leica")).starts_with("no camera is called 'leica'; --list cameras shows"));
+        let leica = message(camera("leica"));
+        assert!(leica.starts_with("no camera is called 'leica'; vextract --list cameras shows"));
         assert!(matches!(reflectances("no-such.csv"), Err(Error::File { .. })));
         assert!(message(illuminant("daylight:3000")).contains("4000..25000 K"));
         assert!(message(illuminant("nan")).starts_with("no illuminant"));

@@ -4,7 +4,7 @@ photos=$CARGO_MANIFEST_DIR/tests/data/photos
 cp "$photos/a_ideal_magenta_50.exr" photo.exr
 cp "$photos/f_srgb_blue_flower_50.jpg" unsure.jpg
 measure() {
-    "$CARGO_MANIFEST_DIR/share/vfold-measure" "$@" 2>&1 </dev/null | sed 's/\(good\|doubtful\|wrong\): .*/\1/; s/only [0-9.]* % sure/only .. % sure/' || :
+    "$CARGO_MANIFEST_DIR/share/vfold-measure" "$@" 2>&1 </dev/null | sed 's/\(good\|doubtful\|wrong\): .*/\1/; s/only [0-9.]* % confidence/only .. % confidence/' || :
 }
 measure --camera canon-5d-mark-ii --illuminant D65 photo.exr
 ls -A vfold-photo
@@ -19,3 +19,6 @@ measure --camera canon-5d-mk2 photo.exr
 measure --illuminant D66 photo.exr
 measure none.exr photo.exr no.tif
 measure --lens x photo.exr
+measure --transfer gamma photo.exr
+measure --undo none.json photo.exr
+measure vfold-photo

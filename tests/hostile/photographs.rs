@@ -15,6 +15,7 @@ fn photographs() {
         vkernel --angle-deg 50 --facets 2x2 -o scene.json
         cp '{PHOTO}' photo.exr
         echo 'this is no picture' > text.png
+        cp text.png text.nef
         : > empty.tif
         oiiotool photo.exr -d uint16 -o photo.tif
         oiiotool photo.exr -d uint16 -o photo.png
@@ -89,7 +90,7 @@ END
             case("vextract photo.exr text.png --preview one.png", 2, &["--preview", "2 photographs", "{}"]),
             case("vextract text.png --preview one.png", 1, &["text.png", "not a PNG"]),
             case("vextract photo.exr --preview no/such/folder.png", 1, &["no/such/folder.png"]),
-            case("sh whole .", 1, &["directory"]),
+            case("sh whole .", 1, &["folder"]),
             case(
                 "sh whole grey.tif",
                 1,
@@ -103,8 +104,9 @@ END
             ),
             case("sh whole big.tif", 1, &["big.tif", "BigTIFF", "less than 4 GiB"]),
             case("sh whole photo.nef", 1, &["photo.nef", "named like a camera's RAW file", "JPEG"]),
+            case("sh whole text.nef", 1, &["text.nef", "does not begin like one", "copy it again"]),
             case("sh whole layered.exr", 1, &["layered.exr", "in layers", "R, G and B"]),
-            case("sh whole text.png", 1, &["text.png", "not a PNG, TIFF, JPEG or OpenEXR"]),
+            case("sh whole text.png", 1, &["text.png", "not a PNG, TIFF, JPEG, OpenEXR or RAW"]),
             case("sh whole empty.tif", 1, &["empty.tif", "empty"]),
             case("sh whole cut-photo.exr", 1, &["cut-photo.exr", "cut short"]),
             case("sh whole cut-photo.tif", 1, &["cut-photo.tif", "cut short"]),
@@ -175,7 +177,7 @@ END
             case("sh extract - < empty.txt", 2, &["--files-from", "one name per line"]),
             case("sh extract missing.txt", 1, &["missing.txt", "No such file"]),
             case("sh extract bytes.txt", 1, &["bytes.txt", "UTF-8"]),
-            case("sh extract .", 1, &["directory"]),
+            case("sh extract .", 1, &["folder"]),
             case("vextract --files-from - --panel0 '0,0 9,0 9,9 0,9'", 2, &["--files-from", "--scene FILE"]),
         ],
     );

@@ -213,7 +213,7 @@ fn what_is_no_picture_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     assert!(refusal(&written(&folder, "empty.tif", b"")).ends_with("the file is empty; copy it again"));
     let text = refusal(&written(&folder, "text.tif", b"wavelength,reflectance\n400,0.1\n"));
-    assert!(text.contains("not a PNG, TIFF, JPEG or OpenEXR picture; save it again"), "{text}");
+    assert!(text.contains("not a PNG, TIFF, JPEG, OpenEXR or RAW picture; save it again"), "{text}");
     assert!(refusal(&written(&folder, "animation.png", b"GIF89a\x01\0\x01\0\0\0\0")).contains("not a PNG"));
     assert!(matches!(open(folder.path().join("missing.tif")), Err(Error::File { .. })));
     assert!(matches!(open(folder.path()), Err(Error::File { .. })));

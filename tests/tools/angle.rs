@@ -138,7 +138,10 @@ fn corners_of_the_picker_tell_the_angle() {
     assert!(
         refused(&format!("[{sized}, {sized}]").replace("[{", "[{\"image\": \"a\", "), "").contains("image")
     );
-    assert!(refused(&sized.replace("640", "640, \"confidence\": 0.5"), "").contains("are only 50 % sure"));
+    assert!(
+        refused(&sized.replace("640", "640, \"confidence\": 0.5"), "")
+            .contains("with only 50 % confidence (97 % needed)")
+    );
     assert!(refused(&sized.replace("640", "640, \"angle_deg\": 0"), "").contains("field 'angle_deg': 0"));
 }
 

@@ -68,6 +68,10 @@ fn a_camera_that_no_photograph_names_is_asked_at_a_terminal() {
     );
     assert!(asked.stdout.contains("did you mean canon-5d-mark-ii"), "{asked:?}");
     assert!(asked.stdout.contains("vfold-photo/report.html: "), "{asked:?}");
+    // Enter asks again, and a question mark shows what may be answered
+    let (_, again) = run(&["photo.exr"], "{ echo; echo '?'; echo canon-5d-mark-ii; } | typing photo.exr");
+    assert!(again.status == 0 && again.stdout.contains("\nnikon-d5100 "), "{again:?}");
+    assert_eq!(again.stdout.matches("Camera that took ").count(), 3, "{again:?}");
     // elsewhere nobody would answer
     for unasked in ["measure --yes photo.exr", "sleep 20 | timeout 19 $ROOT/share/vfold-measure photo.exr"] {
         let (folder, told) = run(&["photo.exr"], unasked);
@@ -132,9 +136,12 @@ fn nobody_waits_for_a_page_that_nobody_sees() {
         let ended = again(&folder, call);
         let said = format!("{}{}", ended.stdout, ended.stderr);
         assert_eq!(said.lines().count(), 1, "{call}: {ended:?}");
-        for part in
-            ["corners are only 9", "vextract --pick 'photo.jpg' >corners.json", "--regions corners.json"]
-        {
+        for part in [
+            "with only 9",
+            "was developed for the eye",
+            "vextract --pick 'photo.jpg' >corners.json",
+            "--regions corners.json",
+        ] {
             assert!(said.contains(part), "{call}: {ended:?}");
         }
     }
@@ -198,6 +205,9 @@ fn a_wrong_call_is_refused_before_anything_is_measured() {
         ("photo.exr --known-fold photo.exr", "write FILE=SPEC", 2),
         ("photo.exr --known-fold photo.exr=cc24:rod", "cc24:rod", 2),
         ("photo.exr --white-reflectance 1.7", "reflectance 1.7 is outside 0..1", 2),
+        ("photo.exr --transfer gamma", "write auto, linear or srgb", 2),
+        ("photo.exr --undo no.json", "unreadable: no.json\n", 1),
+        ("photo.exr .", ". is a folder; name the files in it\n", 1),
     ] {
         let (folder, run) = run(&["photo.exr"], &format!("measure {call}"));
         assert!(run.status == status && run.stderr.contains(why), "{call}: {run:?}");
@@ -246,20 +256,22 @@ fn a_failed_run_leaves_the_old_report_whole() {
 }
 
 #[test]
-fn a_known_fold_and_corners_are_handed_on() {
+fn a_known_fold_corners_and_curve_are_handed_on() {
     let (folder, run) = run(
         &["photo.exr"],
         &format!(
             "vextract --find photo.exr > found.json
             vkernel --regions found.json | vextract photo.exr --regions found.json {KNOWN} > known.ndjson
             echo '{{\"image\":\"other.exr\"}}' | cat - found.json > list.json
-            measure {KNOWN} --regions list.json --known-fold known.ndjson=cc24:magenta photo.exr
+            measure {KNOWN} --transfer linear --regions list.json \
+                --known-fold known.ndjson=cc24:magenta photo.exr
             cmp found.json vfold-photo/regions.json"
         ),
     );
     assert_eq!(run.status, 0, "{run:?}");
     let history = folder.sh("head -n 1 vfold-photo/result.ndjson").stdout;
     let scene: serde_json::Value = serde_json::from_str(&history).unwrap();
-    let arguments = scene["history"][2]["arguments"].as_array().unwrap();
-    assert_eq!(arguments[2..], ["--known-fold", "known.ndjson=cc24:magenta"]);
+    let arguments = |tool: usize| scene["history"][tool]["arguments"].as_array().unwrap();
+    assert!(arguments(1).ends_with(&["--transfer".into(), "linear".into()]), "{scene}");
+    assert_eq!(arguments(2)[2..], ["--known-fold", "known.ndjson=cc24:magenta"]);
 }

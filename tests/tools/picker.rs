@@ -97,7 +97,7 @@ fn a_person_puts_right_what_was_found() {
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     let said: Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!(said["problems"], json!([]));
-    assert!(said["greeting"].as_str().unwrap().contains("% sure"), "{said}");
+    assert!(said["greeting"].as_str().unwrap().contains("% confidence"), "{said}");
     let panels = ["panel0", "panel1"];
     let [found, again] = [&said["found"], &said["again"]];
     are_near(found, &truth, &panels, 1.0);

@@ -213,7 +213,7 @@ fn another_camera_in_exif_is_said_and_a_doubt() {
     let (said, because) = of("Canon", "Canon EOS R5", "--camera nikon-d850 --quiet");
     assert_eq!(
         said,
-        "vextract: warning: a.tif: its EXIF names Canon Canon EOS R5, but the sensitivities used are those \
+        "vextract: warning: a.tif: its EXIF names Canon EOS R5, but the sensitivities used are those \
          of nikon-d850: expect a wrong spectrum; give --camera canon-eos-r5, or leave --camera out\n"
     );
     assert!(
@@ -237,8 +237,8 @@ fn another_camera_in_exif_is_said_and_a_doubt() {
     let (said, _) = of("Canon", "Canon EOS 5D Mark II", "");
     assert_eq!(
         said,
-        "vextract: Canon Canon EOS 5D Mark II: curves of canon-5d-mark-ii; \
-         another measurement is canon-eos-5d-mark-ii (--camera)\n"
+        "vextract: Canon EOS 5D Mark II: using the sensitivities canon-5d-mark-ii; \
+         for the other measurement give --camera canon-eos-5d-mark-ii\n"
     );
 }
 

@@ -31,6 +31,8 @@ use vfold::spectrum::formats::{check_ending, write};
 use vfold::stream::{EstimateRecord, Output, Reader, Record, pipe};
 
 /// Estimate spectral reflectance from the facet RGB of a folded sheet
+///
+/// Most users need only --spectra and --plot.
 #[derive(Parser)]
 #[command(
     name = "vestimate",

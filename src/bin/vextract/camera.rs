@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use vfold::image::Photograph;
+use vfold::image::{Photograph, camera_name};
 use vfold::measure::{Camera, camera_of};
 use vfold::{Result, spectrum};
 
@@ -24,7 +24,7 @@ pub fn other_than(camera: &str, path: &Path, photograph: &Photograph) -> Option<
             Some(known) => format!("give --camera {known}, or leave --camera out"),
             None => "leave --camera out, or give a file of that camera's sensitivities".to_owned(),
         };
-        let (path, taken_by) = (path.display(), format!("{make} {model}").trim().to_owned());
+        let (path, taken_by) = (path.display(), camera_name(make, model));
         format!(
             "warning: {path}: its EXIF names {taken_by}, but the sensitivities used are those of {camera}: \
              expect a wrong spectrum; {instead}"

@@ -13,7 +13,7 @@ use vfold::stream::{Output, Regions, Scene, detection_line, no_detection_line};
 use vfold::{Error, Result};
 
 use super::placing::Placed;
-use super::{Args, balance, reading::Reading};
+use super::{Args, balance, numbers, reading::Reading};
 
 /// Prints the positions of fold, chart and white areas in each photograph, and draws them if `--overlay` is
 /// present.
@@ -78,10 +78,10 @@ pub fn find(
     } else {
         (find_fold(photograph, &lens), None)
     };
-    let found = fold.map_err(|none| not_found(path, &none))?;
+    let found = fold.map_err(|none| not_found(path, photograph, &none))?;
     if !found.is_sure() {
         draw(args, path, photograph, (Some(&found), None, &[]))?;
-        return Err(unsure(path, found.confidence));
+        return Err(unsure(path, photograph, found.confidence));
     }
     if !args.common.quiet {
         let line = format!("{}: corners found, {:.1} % sure", path.display(), 100.0 * found.confidence);
@@ -113,18 +113,22 @@ pub fn other_fold(
     Ok(seen.other_than(&[panel0, panel1], &stated_fold(&fold, scene.angle_sd_deg()?)))
 }
 
-/// Remedy if detection fails.
-const REMEDY: &str = "mark the corners with --pick, or give --panel0 and --panel1";
+/// Remedy if detection fails. A photograph whose colours are of no use is named as such before anybody marks
+/// its corners.
+fn remedy(photograph: &Photograph) -> String {
+    let developed = numbers::developed(photograph.info()).map(|line| format!("; the picture{line}"));
+    format!("mark the corners with --pick, or give --panel0 and --panel1{}", developed.unwrap_or_default())
+}
 
 /// A photograph without a fold, for this reason.
-pub fn not_found(path: &Path, reason: &impl Display) -> Error {
-    Error::picture(path, reason, REMEDY)
+pub fn not_found(path: &Path, photograph: &Photograph, reason: &impl Display) -> Error {
+    Error::picture(path, reason, remedy(photograph))
 }
 
 /// A fold that may be something else, or with a side that may be along another edge.
-pub fn unsure(path: &Path, confidence: f64) -> Error {
-    let problem = format!("the fold's corners are only {:.0} % sure", 100.0 * confidence);
-    Error::picture(path, problem, format!("look at them with --find --overlay FILE.png, then {REMEDY}"))
+pub fn unsure(path: &Path, photograph: &Photograph, confidence: f64) -> Error {
+    let remedy = format!("look at it with --find --overlay FILE.png, then {}", remedy(photograph));
+    Error::picture(path, DetectedFold::unsure(confidence), remedy)
 }
 
 /// Draws fold, chart and white areas over their photograph, if requested.

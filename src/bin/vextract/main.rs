@@ -102,7 +102,8 @@ struct Args {
         conflicts_with_all = ["regions", "panel0", "panel1", "panel", "chart", "white_region", "preview"])]
     find: bool,
     /// Show the photograph and the detected fold in a browser on this machine, to be corrected there,
-    /// then print the corners as --find does
+    /// then print the corners as --find does; over SSH forward the port of the address that is shown:
+    /// ssh -L PORT:127.0.0.1:PORT
     #[arg(long, conflicts_with_all = ["find", "regions", "panel0", "panel1", "panel", "chart", "white_region",
         "preview", "overlay"])]
     pick: bool,

@@ -90,7 +90,8 @@ fn darkest(info: &PhotographInfo) -> Option<String> {
     })
 }
 
-fn developed(info: &PhotographInfo) -> Option<String> {
+/// What a picture that was developed for the eye is, after its name.
+pub fn developed(info: &PhotographInfo) -> Option<String> {
     info.is_developed().then(|| {
         format!(
             " ({}) was developed for the eye, and neither white balance nor colour matrix is undone: \

@@ -80,6 +80,7 @@ fn clicks(text: &str) -> Option<[Point; 2]> {
 /// Opens the page for a user at a terminal, and prints its address.
 fn show(path: &Path, address: &str) {
     cli::say("vextract", &format!("{}: mark the panels in a browser at {address}", path.display()));
+    cli::say("vextract", "waiting for the page: press Done there to end it, or Ctrl-C here");
     let open = |opener: &&str| {
         let quiet = Command::new(opener).arg(address).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
         quiet.is_ok()

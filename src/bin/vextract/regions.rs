@@ -87,12 +87,12 @@ impl RegionArgs {
 }
 
 /// Refuses panels from a file that were not detected, or with low confidence.
-fn check_detected(path: &Path, regions: &Regions) -> Result<()> {
+fn check_detected(path: &Path, photograph: &Photograph, regions: &Regions) -> Result<()> {
     if let Some(reason) = &regions.missing {
-        return Err(finding::not_found(path, reason));
+        return Err(finding::not_found(path, photograph, reason));
     }
     let unsure = regions.confidence.filter(|confidence| *confidence < DetectedFold::SURE);
-    unsure.map_or(Ok(()), |confidence| Err(finding::unsure(path, confidence)))
+    unsure.map_or(Ok(()), |confidence| Err(finding::unsure(path, photograph, confidence)))
 }
 
 /// Parses `2=x,y x,y x,y x,y`.
@@ -117,7 +117,7 @@ impl ResolvedRegions {
     pub fn of(&self, path: &Path, photograph: &Photograph) -> Result<Regions> {
         let regions = self.of_any(path, photograph)?;
         if self.flags.panels.is_empty() {
-            check_detected(path, &regions)?;
+            check_detected(path, photograph, &regions)?;
         }
         Ok(regions)
     }

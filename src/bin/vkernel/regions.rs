@@ -59,8 +59,7 @@ fn check_detected(name: &str, regions: &Regions) -> Result<()> {
     }
     match regions.confidence {
         Some(confidence) if confidence < DetectedFold::SURE => {
-            let problem = format!("the fold's corners are only {:.0} % sure", 100.0 * confidence);
-            Err(Error::regions(name, problem, remedy))
+            Err(Error::regions(name, DetectedFold::unsure(confidence), remedy))
         }
         _ => Ok(()),
     }

@@ -71,6 +71,13 @@ impl DetectedFold {
     pub fn is_sure(&self) -> bool {
         self.confidence >= Self::SURE
     }
+
+    /// Says that a fold was found with this confidence, which is not enough.
+    #[must_use]
+    pub fn unsure(confidence: f64) -> String {
+        let [found, needed] = [(100.0 * confidence).floor(), 100.0 * Self::SURE];
+        format!("the fold was found with only {found:.0} % confidence ({needed:.0} % needed)")
+    }
 }
 
 /// The reason why no fold was found.

@@ -55,6 +55,22 @@ impl CameraNotes {
     }
 }
 
+/// What a camera is called: its model, after its maker unless the model begins with the maker's name.
+///
+/// # Example
+/// ```
+/// use vfold::image::camera_name;
+/// assert_eq!(camera_name("Canon", "Canon EOS R5"), "Canon EOS R5");
+/// assert_eq!(camera_name("NIKON CORPORATION", "NIKON D850"), "NIKON D850");
+/// assert_eq!(camera_name("SONY", "ILCE-7M3"), "SONY ILCE-7M3");
+/// assert_eq!(camera_name("", "X-T3"), "X-T3");
+/// ```
+#[must_use]
+pub fn camera_name(make: &str, model: &str) -> String {
+    let first = |text: &str| text.split_whitespace().next().map(str::to_lowercase);
+    if first(make) == first(model) { model.to_owned() } else { format!("{make} {model}").trim().to_owned() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -16,7 +16,7 @@ mod sampled;
 mod sites;
 mod taken;
 
-pub use camera_notes::CameraNotes;
+pub use camera_notes::{CameraNotes, camera_name};
 pub use file_stamp::FileStamp;
 pub use flat_field::FlatField;
 pub use info::{PhotographInfo, SensorInfo};

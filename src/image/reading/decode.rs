@@ -57,8 +57,7 @@ pub(super) fn decode(file: &mut PictureFile) -> Result<Decoded> {
         ));
     }
     let format = image::guess_format(head).ok().filter(is_supported);
-    let format =
-        format.ok_or_else(|| Error::picture(path, "not a PNG, TIFF, JPEG or OpenEXR picture", RESAVE))?;
+    let format = format.ok_or_else(|| unknown(path))?;
     if format == ImageFormat::Tiff {
         return decode_tiff(file, path, length);
     }
@@ -102,9 +101,22 @@ const RAW_ENDINGS: [&str; 16] = [
     "rw2",
 ];
 
-fn not_named_raw(path: &Path, format: ImageFormat) -> Result<()> {
+fn is_named_raw(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-    if !ending.is_some_and(|ending| RAW_ENDINGS.contains(&ending.as_str())) {
+    ending.is_some_and(|ending| RAW_ENDINGS.contains(&ending.as_str()))
+}
+
+/// A file that begins like no picture.
+fn unknown(path: &Path) -> Error {
+    if is_named_raw(path) {
+        let problem = "named like a camera's RAW file, but it does not begin like one";
+        return Error::picture(path, problem, DAMAGED);
+    }
+    Error::picture(path, "not a PNG, TIFF, JPEG, OpenEXR or RAW picture", RESAVE)
+}
+
+fn not_named_raw(path: &Path, format: ImageFormat) -> Result<()> {
+    if !is_named_raw(path) {
         return Ok(());
     }
     let problem = format!("named like a camera's RAW file, but it is a {} picture", name(format));

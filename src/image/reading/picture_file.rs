@@ -29,7 +29,7 @@ impl PictureFile {
     ///
     /// # Errors
     /// [`Error::File`] if it cannot be opened, or is a pipe that cannot be read; [`Error::Picture`] if it is
-    /// too large.
+    /// a folder or too large.
     ///
     /// # Example
     /// ```
@@ -46,6 +46,9 @@ impl PictureFile {
         let failed = |source| Error::file(path.display(), source);
         let file = File::open(path).map_err(failed)?;
         let metadata = file.metadata().map_err(failed)?;
+        if metadata.is_dir() {
+            return Err(Error::picture(path, "this is a folder", "name the photographs in it"));
+        }
         let (length, bytes) = if metadata.is_file() {
             (metadata.len(), Bytes::Stored(BufReader::new(file)))
         } else {
