@@ -81,8 +81,7 @@ pub fn between_means<F: Family>(
         let Some(model) = family.model(hypothesis, &start.gaussian) else { continue };
         // a place that will not be among those looked at is abandoned
         let least = places.get(PLACES - 1).map_or(f64::NEG_INFINITY, |place| place.ln_evidence);
-        let limits =
-            Limits { iterations: FOLLOWED_LIMIT.min(left), ln_evidence: least - start.ln_share };
+        let limits = Limits { iterations: FOLLOWED_LIMIT.min(left), ln_evidence: least - start.ln_share };
         let found = find_mode(&model, start.w, (start.tempering, fine), FOLLOWED_TOLERANCE, limits);
         drop(model);
         left -= found.trace.len();

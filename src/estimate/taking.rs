@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::verdict::{Doubt, Level};
-use crate::image::{Making, Processing};
+use crate::image::{Making, Processing, camera_name};
 use crate::spectrum::is_other_camera;
 use crate::spectrum::library::{What, is_built_in};
 
@@ -160,9 +160,8 @@ fn another_camera(stated: &Stated, making: &Making) -> Option<Doubt> {
     let (make, model) = &making.taken_by;
     let is_other = stated.stands_in_for.is_none() && is_other_camera(&stated.camera, make, model);
     is_other.then(|| {
-        let took = format!("{make} {model}");
         Doubt::new(
-            format!("EXIF says that {} took the picture, not {}", took.trim(), stated.camera),
+            format!("EXIF says that {} took the picture, not {}", camera_name(make, model), stated.camera),
             "give the camera that took it (vextract --camera)",
         )
     })

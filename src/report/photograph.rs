@@ -100,7 +100,11 @@ fn light(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
     }
     let Some(name) = scene.illuminants()?.into_iter().next().map(|light| light.name) else { return Ok(None) };
     if !scene.is_daylight_assumed()? {
-        return Ok(Some(["light".to_owned(), name, "computed from place and time in the photograph".to_owned()]));
+        return Ok(Some([
+            "light".to_owned(),
+            name,
+            "computed from place and time in the photograph".to_owned(),
+        ]));
     }
     let number = |field: &str| -> Result<Option<f64>> {
         Ok(sample
@@ -109,7 +113,8 @@ fn light(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
             .and_then(|text| text.parse().ok()))
     };
     let is_shown = sample.fields.text_at("estimate.fit.sun_cct_k.supported")?.is_some_and(|is| is == "true");
-    let sure = if is_shown { "assumed; its colour was fitted" } else { "assumed: the picture does not show it" };
+    let sure =
+        if is_shown { "assumed; its colour was fitted" } else { "assumed: the picture does not show it" };
     let value = match (number("value")?, number("sd")?) {
         (Some(value), Some(sd)) => format!("daylight of {} K", with_sd(value, sd)),
         _ => name,

@@ -89,8 +89,8 @@ fn residuals(sheet: &Sheet) -> Result<Option<Html>> {
     let words = format!("residuals of the facets of {}", sheet.curve.name);
     Ok(Some(Html::figure(
         Html::drawing(&svg, &words),
-        "Measured minus estimated facets. The estimate is the mean of several spectra, each of which fits more \
-         closely: a pattern matters, not the size.",
+        "Measured minus estimated facets. The estimate is the mean of several spectra, each of which fits \
+         more closely: a pattern matters, not the size.",
     )))
 }
 

@@ -221,7 +221,8 @@ pub fn find_mode<M: Model>(
         if search.trace.len() >= limits.iterations {
             break Termination::IterationLimit;
         }
-        // the linear model predicts how far the cost can fall; the volume of errors hardly depends on the point
+        // the linear model predicts how far the cost can fall; the volume of errors hardly depends on the
+        // point
         let is_near = now < tempering.0 || gradient_norm < END_OF_STAGE;
         let cost = search.cost(&newton);
         let cost_most = -2.0 * limits.ln_evidence - newton.factor.ln_determinant();

@@ -12,10 +12,8 @@ const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscor
 /// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO`, GNU parallel and
 /// vfold-measure.
 const OTHERS: [&str; 13] = [
-    "--bench",
     "--features",
     "--release",
-    "--test",
     "--fullpixels",
     "--header",
     "--keep-order",

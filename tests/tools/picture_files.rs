@@ -216,10 +216,7 @@ fn another_camera_in_exif_is_said_and_a_doubt() {
         "vextract: warning: a.tif: its EXIF names Canon EOS R5, but the sensitivities used are those \
          of nikon-d850: expect a wrong spectrum; give --camera canon-eos-r5, or leave --camera out\n"
     );
-    assert!(
-        because.contains("EXIF says that Canon Canon EOS R5 took the picture, not nikon-d850"),
-        "{because}"
-    );
+    assert!(because.contains("EXIF says that Canon EOS R5 took the picture, not nikon-d850"), "{because}");
     for (model, camera) in [
         ("Canon EOS R5", "--camera canon-eos-r5"),
         ("Canon EOS 5D Mark II", "--camera canon-eos-5d-mark-ii"),
