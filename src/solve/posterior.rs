@@ -49,9 +49,6 @@ const LEAST_PROMISE: f64 = 0.01;
 /// correction a third more steps are needed; with more than two some searches end in another mode.
 const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
-/// Far from the minimum, after a first step, the cost that the linear model leaves is at most this many times
-/// that at the minimum.
-const FAR_OFF: f64 = 3.0;
 /// A step that lowers the cost by less than this share of its excess over the limit is useless.
 const TOO_LITTLE: f64 = 0.005;
 
@@ -221,16 +218,14 @@ pub fn find_mode<M: Model>(
         if search.trace.len() >= limits.iterations {
             break Termination::IterationLimit;
         }
-        // the linear model predicts how far the cost can fall; the volume of errors hardly depends on the
-        // point
+        // except at the start, the linear model predicts how far the cost can fall; the volume of errors
+        // hardly depends on the point
         let is_near = now < tempering.0 || gradient_norm < END_OF_STAGE;
         let cost = search.cost(&newton);
         let cost_most = -2.0 * limits.ln_evidence - newton.factor.ln_determinant();
-        let cost_left = cost - gradient_norm.powi(2);
-        let is_hopeless = if is_near { cost_left > cost_most } else { cost_left > FAR_OFF * cost_most };
         let last_gain = search.trace.last().filter(|_| steps > 0).map(|before| before.cost - cost);
         let is_stuck = last_gain.is_some_and(|gain| gain < TOO_LITTLE * (cost - cost_most));
-        if is_stuck || (is_hopeless && (is_near || !search.trace.is_empty())) {
+        if is_stuck || (is_near && cost - gradient_norm.powi(2) > cost_most) {
             break Termination::NoProgress { gradient_norm };
         }
         steps += 1;

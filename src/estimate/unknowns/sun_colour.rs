@@ -26,7 +26,10 @@ pub static SUN_COLOUR: Unknown = Unknown {
         prior: of_photograph,
         set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
         symptom: Some(Symptom {
-            ideal: |stated| 1e6 / stated.daylight.map_or(stated.priors.sun_mired, Daylight::mired),
+            ideal: |stated| match stated.daylight {
+                Some(nominal) if !stated.is_daylight_assumed => 1e6 / nominal.mired(),
+                _ => 1e6 / stated.priors.unstated_sun_mired,
+            },
             least: 400.0,
             words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
             remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
