@@ -1,11 +1,12 @@
 """Shapes for surfaces.sh, and how far off what vkernel makes of them is.
 
-    surfaces.py box N            a box of 1 x 0.6 x 1.5 without its lid, N x N squares a side, as OBJ
+    surfaces.py box N            a closed box of 1 x 0.6 x 1.5, N x N squares a side, as OBJ
     surfaces.py crumpled N       a sheet with eight creases in any direction, 2 N N triangles, as OBJ
-    surfaces.py flux SCENE       that box under a sky of 1: what comes in through the opening, off what is absorbed or leaves again
+    surfaces.py flux SCENE       closed surface of quadrilaterals: light in all bounces, off its sum Φ/(1 − r), Φ the direct light
     surfaces.py against SCENE BETTER     facet irradiances, off those of a better solution
+    surfaces.py dense SCENE KERNEL       facet irradiances, off NumPy's dense solver with all pairs
 
-Errors are relative, at reflectance 0.9: of the light, or root mean square of all facets.
+Errors are relative, at reflectance 0.9: of the sum, or root mean square of all facets.
 """
 import json
 import math
@@ -16,7 +17,6 @@ import numpy as np
 
 REFLECTANCE = 0.9
 FOLDS = 8
-SIZE = (1, 0.6, 1.5)
 
 
 def obj(vertices, faces):
@@ -25,15 +25,16 @@ def obj(vertices, faces):
 
 
 def box(n):
+    size = (1, 0.6, 1.5)
     vertices, faces = [], []
     for axis in range(3):
         u, v = (axis + 1) % 3, (axis + 2) % 3
-        for side in (0, 1) if axis < 2 else (0,):
+        for side in (0, 1):
             first = len(vertices)
             for i in range(n + 1):
                 for j in range(n + 1):
                     point = [0, 0, 0]
-                    point[axis], point[u], point[v] = side * SIZE[axis], i * SIZE[u] / n, j * SIZE[v] / n
+                    point[axis], point[u], point[v] = side * size[axis], i * size[u] / n, j * size[v] / n
                     vertices.append(point)
             for i in range(n):
                 for j in range(n):
@@ -67,10 +68,8 @@ def areas(path):
 
 
 def flux(scene):
-    # a facet sees as much of the sky as it gets direct light, and gives off that share through the opening
-    light, sky = irradiance(scene, REFLECTANCE), irradiance(scene, 0)
-    out = areas(scene) @ ((1 - REFLECTANCE) * light + REFLECTANCE * light * sky)
-    return abs(out / (SIZE[0] * SIZE[1]) - 1)
+    sums = [areas(scene) @ irradiance(scene, r) for r in (REFLECTANCE, 0)]
+    return abs(sums[0] * (1 - REFLECTANCE) / sums[1] - 1)
 
 
 def rms(got, want):
@@ -81,9 +80,15 @@ def against(scene, better):
     return rms(irradiance(scene, REFLECTANCE), irradiance(better, REFLECTANCE))
 
 
+def dense(scene, kernel):
+    kernel = np.load(kernel)
+    want = np.linalg.solve(np.eye(len(kernel)) - REFLECTANCE * kernel, irradiance(scene, 0))
+    return rms(irradiance(scene, REFLECTANCE), want)
+
+
 if __name__ == "__main__":
     what, *given = sys.argv[1:]
     if what in ("box", "crumpled"):
         print({"box": box, "crumpled": crumpled}[what](int(given[0])))
     else:
-        print(f"{({'flux': flux, 'against': against}[what])(*given):.1e}")
+        print(f"{({'flux': flux, 'against': against, 'dense': dense}[what])(*given):.1e}")

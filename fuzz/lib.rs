@@ -6,8 +6,8 @@
 //! cargo +nightly fuzz run csv fuzz/corpus/csv tests/corpus/kept/csv -- \
 //!     -dict=fuzz/tokens.dict -max_total_time=600 -timeout=20 -rss_limit_mb=4096
 //! ```
-//! `raw` takes `--features raw`; `surface` takes milliseconds to seconds an input and wants `-max_len=160`.
-//! What breaks something goes to `tests/corpus/kept`, where the tests find it.
+//! `raw` takes `--features raw`; `surface` and `clusters` take milliseconds to seconds an input and want
+//! `-max_len=160`. What breaks something goes to `tests/corpus/kept`, where the tests find it.
 
 #[path = "../tests/corpus/targets/mod.rs"]
 pub mod targets;

@@ -7,9 +7,8 @@ use super::faces::{canonical, convex, crowded_edges, flat, is_degenerate};
 use super::polygon::Polygon;
 use crate::error::{Error, Result};
 
-/// Most facets of a shape, and patches of a mesh: the pairs of as many in three panels take about a minute on
-/// two cores, and half a gigabyte.
-pub const FACETS_MAX: usize = 30_000;
+/// Most facets of a shape, and patches of a mesh.
+pub const FACETS_MAX: usize = 100_000;
 
 /// Facets that belong together, such as a panel of a fold.
 #[derive(Clone, Debug, PartialEq, Eq)]

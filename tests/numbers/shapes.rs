@@ -86,11 +86,36 @@ fn all_light_in_a_closed_box_stays_there() {
     }
 }
 
+/// A mesh so large exchanges light by clusters. Every patch sees nothing but the surface: with reflectance r,
+/// and as much light of its own as any other, it gets 1/(1 − r) times that.
+#[test]
+fn a_large_closed_box_keeps_all_its_light() {
+    let n = 41;
+    let shape = box_within([1.0, 0.6, 1.5], n);
+    let kernel = SurfaceKernel::new(&shape, &patches(&shape, Division::NONE), 5e-3).unwrap();
+    assert_eq!(
+        kernel.census(),
+        Census { averted: 3 * n.pow(2) * (n.pow(2) - 1), open: 15 * n.pow(4), walled: 0, hidden: 0 }
+    );
+    assert!(kernel.entries() < n.pow(4), "{}", kernel.entries());
+    assert!(largest_difference(&kernel.row_sums(), &vec![1.0; shape.len()]) < 5e-5);
+    let response = SurfaceResponse::solve(&kernel, &vec![1.0; shape.len()], 1e-6).unwrap().0;
+    for facet in (0..shape.len()).step_by(701) {
+        assert!((response.irradiance(facet, 0.9) - 10.0).abs() < 10.0 * 5e-4, "{facet}");
+    }
+    let row = kernel.matrix_row(7);
+    for other in (2 * n * n..shape.len()).step_by(997) {
+        let (there, back) =
+            (row[other] * shape.facet(7).area(), kernel.matrix_row(other)[7] * shape.facet(other).area());
+        assert!((there / back - 1.0).abs() < 1e-9, "{there} {back}");
+    }
+}
+
 /// From within a sphere, which is curved everywhere and a caster of every facet, any part sees of every other
 /// its share of the whole area.
 #[test]
 fn all_parts_of_a_sphere_see_each_other_alike() {
-    let (rows, cols) = (16, 50);
+    let (rows, cols) = (32, 100);
     let point = |row: usize, col: usize| {
         let (polar, round) = (PI * row as f64 / rows as f64, 2.0 * PI * (col % cols) as f64 / cols as f64);
         let out = if row == rows { 0.0 } else { polar.sin() };
@@ -111,8 +136,8 @@ fn all_parts_of_a_sphere_see_each_other_alike() {
     let kernel = SurfaceKernel::new(&shape, &patches(&shape, Division::NONE), 1e-2).unwrap();
     assert!(largest_difference(&kernel.row_sums(), &vec![1.0; shape.len()]) < 1e-4);
     let total: f64 = shape.facets().map(Polygon::area).sum();
-    let row = kernel.matrix_row(200);
-    for (other, facet) in shape.facets().enumerate().step_by(19).filter(|(other, _)| *other > 400) {
+    let row = kernel.matrix_row(800);
+    for (other, facet) in shape.facets().enumerate().step_by(37).filter(|(other, _)| *other > 1600) {
         assert!((row[other] * total / facet.area() - 1.0).abs() < 1e-2, "{other}");
     }
 }

@@ -33,8 +33,8 @@ const FAST_TOLERANCE: f64 = 0.01;
 #[command(next_help_heading = "Shapes")]
 pub struct ShapeArgs {
     /// Surface of triangles and flat quadrilaterals, in any unit: one facet each, in the file's order;
-    /// corners counter-clockwise seen from the reflecting side. At most 30000, and at most a gigabyte for
-    /// their pairs
+    /// corners counter-clockwise seen from the reflecting side. At most 100000, and at most a gigabyte for
+    /// pairs that are near or partly hidden
     #[arg(long, value_name = "FILE.obj|.ply|.json",
         conflicts_with_all = ["angle_deg", "panel", "panel1_depth", "facets", "spacing", "folds", "ridge_deg",
             "bow_deg"])]

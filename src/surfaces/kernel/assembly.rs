@@ -1,22 +1,23 @@
 //! The form factors of all pairs of patches, each by the most suitable formula.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use rayon::prelude::*;
 
+use super::block::Block;
 use super::casters::{Between, Bounds, Casters};
-use super::patches::Patch;
 use super::site::Site;
 use super::symmetric::Rows;
 use super::{contour, far, partial};
-use crate::error::{Error, Result};
 use crate::surfaces::shape::Shape;
 
 /// Patches that search for their casters together.
 const BLOCK: usize = 32;
 /// Exchange below this is rounding: a line of sight that just touches an edge.
 const NOTHING: f64 = 1e-7;
-/// Most entries stored: in single precision a gigabyte.
+
+/// Most entries stored: in single precision and with their indices a gigabyte.
 const ENTRIES_MAX: usize = 240_000_000;
 
 /// Numbers of pairs of patches by treatment.
@@ -32,12 +33,14 @@ pub struct Census {
     pub hidden: usize,
 }
 
-/// Assembles all pairs of patches.
+/// Assembles all pairs of patches, part by part.
 pub(super) struct Assembly {
-    sites: Vec<Site>,
-    casters: Casters,
+    pub(super) sites: Vec<Site>,
+    pub(super) casters: Casters,
     tolerance: f64,
-    entries: AtomicUsize,
+    /// Relative error of the rules for distant pairs.
+    truncation: f64,
+    numbers: AtomicUsize,
     averted: AtomicUsize,
     open: AtomicUsize,
     walled: AtomicUsize,
@@ -45,18 +48,36 @@ pub(super) struct Assembly {
 }
 
 impl Assembly {
-    pub(super) fn new(shape: &Shape, patches: &[Patch], tolerance: f64) -> Self {
+    pub(super) fn new(shape: &Shape, sites: Vec<Site>, [tolerance, truncation]: [f64; 2]) -> Self {
         let none = AtomicUsize::default;
         Self {
-            sites: patches.iter().map(Site::new).collect(),
+            sites,
             casters: Casters::new(shape.facets(), shape.size()),
             tolerance,
-            entries: none(),
+            truncation,
+            numbers: none(),
             averted: none(),
             open: none(),
             walled: none(),
             hidden: none(),
         }
+    }
+
+    /// Whether the limit of entries is exceeded: then no more are computed.
+    pub(super) fn is_full(&self) -> bool {
+        self.numbers.load(Relaxed) > ENTRIES_MAX
+    }
+
+    pub(super) fn count_averted(&self, pairs: usize) {
+        self.averted.fetch_add(pairs, Relaxed);
+    }
+
+    pub(super) fn count_walled(&self, pairs: usize) {
+        self.walled.fetch_add(pairs, Relaxed);
+    }
+
+    pub(super) fn count_open(&self, pairs: usize) {
+        self.open.fetch_add(pairs, Relaxed);
     }
 
     pub(super) fn census(&self) -> Census {
@@ -66,34 +87,52 @@ impl Assembly {
     }
 
     /// All pairs, in strips of rows.
-    ///
-    /// # Errors
-    /// [`Error::FullExchange`] if they exceed a gigabyte: then no more are computed.
-    pub(super) fn strips(&self) -> Result<Vec<Rows>> {
+    pub(super) fn strips(&self) -> Vec<Block> {
         let count = self.sites.len();
         let bounds = |sites: &[Site]| Bounds::of(sites.iter().flat_map(|site| site.polygon.corners()));
         let bounds: Vec<Bounds> = self.sites.chunks(BLOCK).map(bounds).collect();
         let patches = |block: usize| block * BLOCK..((block + 1) * BLOCK).min(count);
         let all = self.casters.numbers();
         let strip = |block: usize| {
-            if self.entries.load(Relaxed) > ENTRIES_MAX {
-                return Err(Error::FullExchange { name: "shape".to_owned(), patches: count });
-            }
-            let rows = patches(block);
-            let mut exchange = vec![vec![0.0; count - rows.start]; rows.len()];
-            for other in block..bounds.len() {
-                let casters = self.casters.between_boxes(&bounds[block], &bounds[other], &all);
-                for (row, i) in exchange.iter_mut().zip(rows.clone()) {
-                    for j in patches(other).filter(|j| *j > i) {
-                        row[j - rows.start] = self.exchange(i, j, &casters);
-                    }
-                }
-            }
-            let strip = Rows::new(rows.start, &exchange);
-            self.entries.fetch_add(strip.len(), Relaxed);
-            Ok(strip)
+            let others = (block..bounds.len()).map(|other| {
+                (patches(other), self.casters.between_boxes(&bounds[block], &bounds[other], &all))
+            });
+            self.rows(patches(block), patches(block).start..count, others)
         };
         (0..bounds.len()).into_par_iter().map(strip).collect()
+    }
+
+    /// The exchange of patches with others further right, past `casters`; `None` if there is none.
+    pub(super) fn block(
+        &self,
+        rows: Range<usize>,
+        columns: Range<usize>,
+        casters: &[usize],
+    ) -> Option<Block> {
+        let block = self.rows(rows, columns.clone(), std::iter::once((columns, casters.to_vec())));
+        (!block.entries.is_empty()).then_some(block)
+    }
+
+    /// The exchange right of the diagonal between `rows` and `columns`, in parts with the casters between
+    /// them.
+    fn rows(
+        &self,
+        rows: Range<usize>,
+        columns: Range<usize>,
+        parts: impl Iterator<Item = (Range<usize>, Vec<usize>)>,
+    ) -> Block {
+        let mut exchange = vec![vec![0.0; columns.len()]; rows.len()];
+        for (others, casters) in parts.take_while(|_| !self.is_full()) {
+            for (row, i) in exchange.iter_mut().zip(rows.clone()) {
+                for j in others.clone().filter(|j| *j > i) {
+                    row[j - columns.start] = self.exchange(i, j, &casters);
+                }
+            }
+        }
+        let mut entries = Rows::default();
+        rows.clone().zip(&exchange).for_each(|(i, row)| entries.push(i, columns.start, row));
+        self.numbers.fetch_add(entries.len(), Relaxed);
+        Block { rows, columns, entries }
     }
 
     /// `√A_i·K_ij/√A_j`.
@@ -120,7 +159,7 @@ impl Assembly {
             return 0.0;
         }
         let distance = (a.centre - b.centre).norm();
-        let exchange = far::exchange(&part_a, &part_b, [a.radius, b.radius], distance)
+        let exchange = far::exchange(&part_a, &part_b, [a.radius, b.radius], distance, self.truncation)
             .unwrap_or_else(|| contour::exchange(&part_a, &part_b));
         share * exchange.max(0.0) / (a.polygon.area() * b.polygon.area()).sqrt()
     }

@@ -36,6 +36,12 @@ impl Bounds {
         (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
     }
 
+    /// Largest extent along an axis.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        (self.high - self.low).max()
+    }
+
     /// Least and greatest height of the box above a plane with a unit normal.
     #[must_use]
     pub fn heights(&self, plane: &Plane) -> [f64; 2] {
@@ -135,6 +141,12 @@ impl Casters {
         (0..self.all.len()).collect()
     }
 
+    /// The plane of a caster.
+    #[must_use]
+    pub fn plane(&self, number: usize) -> &Plane {
+        &self.all[number].plane
+    }
+
     /// Those among `candidates` that may be between the contents of two boxes: they intersect the common
     /// bounding box, which extends to both sides of their plane.
     #[must_use]
@@ -161,6 +173,21 @@ impl Casters {
             }
         }
         if parts.is_empty() { Between::Nothing } else { Between::Some(parts) }
+    }
+
+    /// Those of `candidates` that may hide part of the hull of corners `a` from part of the hull of corners
+    /// `b`; none if one hides everything.
+    #[must_use]
+    pub fn between_hulls(&self, a: &[Vec3], b: &[Vec3], candidates: &[usize]) -> Option<Vec<usize>> {
+        let mut may = Vec::new();
+        for n in candidates {
+            match self.all[*n].hides(a, b, self.margin) {
+                Some(true) => return None,
+                Some(false) => {}
+                None => may.push(*n),
+            }
+        }
+        Some(may)
     }
 
     /// The parts of all facets in front of a plane, which may be between it and a light.

@@ -9,21 +9,23 @@ use crate::surfaces::polygon::Polygon;
 
 /// Beyond this order of Gauss rule the contour integral is cheaper.
 const ORDER_MAX: usize = 6;
-/// Truncation error, relative: below that of the single precision in which form factors are stored.
-const TOLERANCE: f64 = 1e-8;
+/// Default truncation error, relative.
+pub const TOLERANCE: f64 = 1e-10;
 
 static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=ORDER_MAX).map(Rule::gauss_legendre).collect());
 
-/// Area times form factor between mutually visible triangles or quadrilaterals; none if they are too near.
+/// Area times form factor between mutually visible triangles or quadrilaterals, to a relative `tolerance`;
+/// none if they are too near.
 ///
 /// `a` and `b` lie in spheres of radii `radii` whose centres are `distance` apart.
 #[must_use]
-pub fn exchange(a: &Polygon, b: &Polygon, radii: [f64; 2], distance: f64) -> Option<f64> {
+pub fn exchange(a: &Polygon, b: &Polygon, radii: [f64; 2], distance: f64, tolerance: f64) -> Option<f64> {
     if a.corners().len() > 4 || b.corners().len() > 4 {
         return None;
     }
     let gap = distance - radii[0] - radii[1];
-    let [nodes_a, nodes_b] = [nodes(a, order(radii[0], gap)?), nodes(b, order(radii[1], gap)?)];
+    let [nodes_a, nodes_b] =
+        [nodes(a, order(radii[0], gap, tolerance)?), nodes(b, order(radii[1], gap, tolerance)?)];
     let mut sum = 0.0;
     for (p, weight_p) in &nodes_a {
         for (q, weight_q) in &nodes_b {
@@ -37,11 +39,11 @@ pub fn exchange(a: &Polygon, b: &Polygon, radii: [f64; 2], distance: f64) -> Opt
 
 /// Gauss order for a polygon of this radius at this gap from its neighbour, if moderate (Trefethen,
 /// *Approximation Theory and Approximation Practice*, theorem 19.3).
-fn order(radius: f64, gap: f64) -> Option<usize> {
+fn order(radius: f64, gap: f64, tolerance: f64) -> Option<usize> {
     if gap <= 0.0 {
         return None;
     }
-    let order = (-TOLERANCE.ln() / (2.0 * (gap / radius).asinh())).ceil() as usize;
+    let order = (-tolerance.ln() / (2.0 * (gap / radius).asinh())).ceil() as usize;
     (order <= ORDER_MAX).then_some(order.max(1))
 }
 

@@ -17,9 +17,10 @@ const SHADOW: usize = 2;
 /// brightest.
 const UNEVEN: f64 = 0.01;
 /// Most cells along a side that can be requested: for a single facet they make the largest number of patches.
-const CELLS_MAX: usize = 173;
-/// Most patches of the first mesh.
+const CELLS_MAX: usize = 316;
+/// Most patches of the first mesh, and of others except one expected to reach the tolerance.
 const FIRST_MAX: usize = 8000;
+const PATCHES_MAX: usize = 40_000;
 /// Most pairs of patches that may partly hide each other, which dominate the time: half a minute or so.
 const HIDDEN_MAX: f64 = 2e6;
 /// Ratio of successive differences between meshes. With cells halved it should be a quarter; on coarse
@@ -49,7 +50,7 @@ pub struct Solved {
 ///
 /// [`Mesh::Auto`] refines facets until the expected error of every facet mean is at most `tolerance`,
 /// relative to itself or, in the dark, to a tenth of the mean, at reflectances up to 0.9; it stops earlier,
-/// as the accuracy shows, at [`FACETS_MAX`] patches or two million pairs of partly hidden patches.
+/// as the accuracy shows, at 40 000 patches or two million pairs of partly hidden patches.
 ///
 /// # Errors
 /// As [`SurfaceKernel::new`] and [`SurfaceResponse::solve`]; [`Error::Usage`] for a mesh of rows and columns,
@@ -113,13 +114,16 @@ impl Scene<'_> {
             let patches = self.divided(*cells, &uneven);
             let growth = patches.len() as f64 / solved.accuracy.unknowns as f64;
             let hidden = solved.kernel.census().hidden as f64 * growth.powi(2);
-            if patches.len() > FACETS_MAX || hidden > HIDDEN_MAX {
+            let reaches =
+                solved.accuracy.facet_mean_error.is_some_and(|error| FALL * error <= self.tolerance);
+            let patches_max = if reaches { FACETS_MAX } else { PATCHES_MAX };
+            if patches.len() > patches_max || hidden > HIDDEN_MAX {
                 break;
             }
             let finer = match self.on(&patches) {
                 Ok(finer) => finer,
                 // if this does not fit into memory, the last solution remains
-                Err(Error::FullExchange { .. }) => break,
+                Err(Error::Memory { .. } | Error::FullExchange { .. }) => break,
                 Err(error) => return Err(error),
             };
             let last = difference(&solved.responses, &finer.responses);

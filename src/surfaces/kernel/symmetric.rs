@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// The entries right of the diagonal, in runs of adjacent non-zero ones, in single precision: 6e-8 of an
 /// entry is below the accuracy of any mesh, and half the memory allows twice the entries.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rows {
     /// First row and column of each run, and the range of its entries.
     runs: Vec<Run>,
@@ -19,24 +19,17 @@ struct Run {
 }
 
 impl Rows {
-    /// Adjacent rows from number `first` on, each from column `first` to the last; what is left of the
-    /// diagonal is zero.
-    #[must_use]
-    pub fn new(first: usize, rows: &[Vec<f64>]) -> Self {
-        let count = rows.iter().flatten().filter(|entry| **entry != 0.0).count();
-        let (mut runs, mut values) = (Vec::new(), Vec::with_capacity(count));
-        for (row, entries) in (first..).zip(rows) {
-            let mut start = first;
-            for run in entries.chunk_by(|a, b| (*a == 0.0) == (*b == 0.0)) {
-                if run[0] != 0.0 {
-                    let before = values.len();
-                    values.extend(run.iter().map(|entry| *entry as f32));
-                    runs.push(Run { row, start, values: before..values.len() });
-                }
-                start += run.len();
+    /// Adds a row, starting at column `start`.
+    pub fn push(&mut self, row: usize, start: usize, entries: &[f64]) {
+        let mut column = start;
+        for run in entries.chunk_by(|a, b| (*a == 0.0) == (*b == 0.0)) {
+            if run[0] != 0.0 {
+                let first = self.values.len();
+                self.values.extend(run.iter().map(|entry| *entry as f32));
+                self.runs.push(Run { row, start: column, values: first..self.values.len() });
             }
+            column += run.len();
         }
-        Self { runs, values }
     }
 
     /// Number of stored entries.
@@ -58,7 +51,7 @@ impl Rows {
 
     /// Adds the entries of a row of the matrix, stored here directly or as mirrored columns, to `out`.
     pub fn add_row(&self, row: usize, out: &mut [f64]) {
-        for (own, start, entries) in self.runs().take_while(|(own, ..)| *own <= row) {
+        for (own, start, entries) in self.runs() {
             if own == row {
                 out[start..].iter_mut().zip(entries).for_each(|(out, entry)| *out += f64::from(*entry));
             } else if let Some(entry) = row.checked_sub(start).and_then(|n| entries.get(n)) {

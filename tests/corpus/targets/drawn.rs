@@ -24,4 +24,9 @@ impl<'a> Drawn<'a> {
     pub fn coarse(&mut self, [least, most]: [f64; 2]) -> f64 {
         least + (most - least) * f64::from(self.byte()) / 255.0
     }
+
+    pub fn fine(&mut self, [least, most]: [f64; 2]) -> f64 {
+        let number = u32::from_le_bytes([self.byte(), self.byte(), self.byte(), self.byte()]);
+        least + (most - least) * f64::from(number) / f64::from(u32::MAX)
+    }
 }

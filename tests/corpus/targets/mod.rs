@@ -45,6 +45,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("refined", placed::refined),
     ("chart", placed::chart),
     ("surface", surfaces::surface),
+    ("clusters", surfaces::clusters),
     ("spec", flags::spec),
     ("values", flags::values),
 ];

@@ -13,6 +13,8 @@ use super::{assert_finite, taken};
 const TOLERANCE: f64 = 1e-2;
 /// Pairs of more patches would take seconds.
 const PATCHES_MAX: usize = 64;
+/// Patches of which clusters exchange light.
+const CLUSTERED: usize = 256;
 /// Rows of the matrix that are looked at.
 const ROWS: usize = 4;
 
@@ -26,6 +28,26 @@ pub fn surface(bytes: &[u8]) {
     let patches = patches(&shape, Division { cells: 1 + drawn.below(3), graded: drawn.below(2) == 1 });
     if patches.len() <= PATCHES_MAX {
         assert_lawful(&shape, &patches, &mut drawn);
+    }
+}
+
+/// Clusters that exchange light from afar give what their pairs do: in a pit whose walls see each other
+/// whole.
+pub fn clusters(bytes: &[u8]) {
+    let mut drawn = Drawn::from(bytes);
+    let Some(shape) = taken(pit(&mut drawn)) else { return };
+    let cells = (1..).find(|cells| 3 * shape.len() * cells * cells >= CLUSTERED).unwrap();
+    let patches = patches(&shape, Division { cells, graded: drawn.below(2) == 1 });
+    let by = [SurfaceKernel::by_clusters, SurfaceKernel::by_pairs];
+    let [clusters, pairs] = by.map(|by| taken(by(&shape, &patches, TOLERANCE)));
+    let (Some(clusters), Some(pairs)) = (&clusters, &pairs) else {
+        assert_eq!(clusters.is_some(), pairs.is_some());
+        return;
+    };
+    assert_mutual(clusters, &mut drawn);
+    assert_eq!(clusters.census(), pairs.census());
+    for (found, want) in clusters.row_sums().iter().zip(pairs.row_sums()) {
+        assert!((found - want).abs() < 0.01 * TOLERANCE, "a row sum of {found} for {want}");
     }
 }
 
@@ -57,6 +79,19 @@ fn accordion(drawn: &mut Drawn) -> Result<Shape> {
         bow_deg: drawn.coarse([-180.0, 180.0]),
     }
     .shape()
+}
+
+/// Walls from the tip of a cone to points on it.
+fn pit(drawn: &mut Drawn) -> Result<Shape> {
+    let (walls, depth) = (3 + drawn.below(4), drawn.fine([0.01, 5.0]));
+    let mut rim = |n: usize| {
+        let turn = std::f64::consts::TAU * (n as f64 + drawn.fine([0.05, 0.95])) / walls as f64;
+        let far = drawn.one_of(&[1.0, 1.0, 0.1, 3.0, 30.0]) * drawn.fine([0.5, 1.0]);
+        [far * turn.cos(), far * turn.sin(), far * depth]
+    };
+    let vertices = (0..walls).map(&mut rim).chain([[0.0; 3]]).collect();
+    let faces = (0..walls).map(|n| vec![n, (n + 1) % walls, walls]).collect();
+    Ok(Shape::new(vertices, faces, vec![])?.0)
 }
 
 fn light(drawn: &mut Drawn, size: f64) -> Result<LightSource> {
