@@ -1,5 +1,7 @@
 //! The conditions of a photograph.
 
+use std::iter;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::day::Day;
@@ -69,7 +71,7 @@ impl Conditions {
     /// Whether sky and ground light the facets as under `other` conditions, in whatever amounts and colours.
     pub(super) fn distribute_alike(&self, other: &Self) -> bool {
         let places = |of: &Self| [of.cloud, of.elevation_deg, of.angle_deg, of.bow_deg, of.crease_radius];
-        places(self) == places(other)
+        iter::zip(places(self), places(other)).all(|(a, b)| a.total_cmp(&b).is_eq())
     }
 }
 
