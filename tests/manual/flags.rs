@@ -11,7 +11,7 @@ const TOOLS: [&str; 5] = ["vkernel", "vforward", "vextract", "vestimate", "vscor
 
 /// Flags of other programs that messages and pages name, those of cargo, `OpenImageIO`, GNU parallel and
 /// vfold-measure.
-const OTHERS: [&str; 13] = [
+const OTHERS: [&str; 11] = [
     "--features",
     "--release",
     "--fullpixels",
