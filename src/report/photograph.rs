@@ -114,7 +114,7 @@ fn light(sample: &Sample, scene: &Scene) -> Result<Option<[String; 3]>> {
     };
     let is_shown = sample.fields.text_at("estimate.fit.sun_cct_k.supported")?.is_some_and(|is| is == "true");
     let sure =
-        if is_shown { "assumed; its colour was fitted" } else { "assumed: the picture does not show it" };
+        if is_shown { "assumed; its colour was fitted" } else { "assumed: the picture hardly shows it" };
     let value = match (number("value")?, number("sd")?) {
         (Some(value), Some(sd)) => format!("daylight of {} K", with_sd(value, sd)),
         _ => name,

@@ -103,11 +103,11 @@ pub(super) fn utc(seconds: f64) -> String {
     format!("{year:04}-{month:02}-{day:02} {hour:02}:{minute:02}:{second:02} UTC")
 }
 
-/// A number with its standard deviation, on one line.
+/// A number with its standard deviation, which may begin a line.
 pub(super) fn with_sd(value: f64, sd: f64) -> String {
     let value = digits(value, sd);
     let decimals = value.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    format!("{value}\u{a0}±\u{a0}{sd:.decimals$}")
+    format!("{value} ±\u{a0}{sd:.decimals$}")
 }
 
 #[cfg(test)]

@@ -122,7 +122,7 @@ fn numbers_are_those_of_the_record() {
     // a value is shown to four digits, its standard deviation to as many decimals
     let near = |shown: &str, told: &[&Value]| {
         let off = 5e-4 * told[0].as_f64().unwrap().abs().max(0.1);
-        for (shown, told) in shown.split("\u{a0}±\u{a0}").zip(told) {
+        for (shown, told) in shown.split(" ±\u{a0}").zip(told) {
             let (shown, told) = (shown.parse::<f64>().unwrap(), told.as_f64().unwrap());
             assert!((shown - told).abs() <= off, "{shown} {told}");
         }
