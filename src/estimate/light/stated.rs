@@ -21,8 +21,9 @@ use crate::spectrum::{WavelengthGrid, candidate_lights};
 /// Log evidence ratio that outweighs a statement: nineteen to one, rounded, as one statement in twenty is
 /// mistaken.
 pub(super) const LN_ODDS: f64 = 3.0;
-/// A stated light is not questioned if facets are no more improbable in it than this, in standard deviations
-/// over known sheets: what is that usual needs no other light to explain it.
+/// A stated light is not questioned if facets, with the noise at which hypotheses are sorted, are no more
+/// improbable in it than this, in standard deviations over known sheets: what is that usual needs no other
+/// light to explain it.
 const USUAL: f64 = 0.5;
 /// Lights are weighed by classes of spectra if they are ahead by [`LN_AHEAD`] under all spectra as one, up to
 /// this number.
@@ -72,13 +73,13 @@ pub fn rival(
     others: &Others,
     prior: &Prior,
 ) -> Option<Rival> {
-    if stated.solution.surprise(1.0) < USUAL {
+    let search = Search::new(data, prior);
+    if search.surprise(stated) < USUAL {
         return None;
     }
     let facets = Facets { data, gaussian: prior.broad() };
     let (reflectance, (_, unknowns)) =
         (facets.reflectance_at(&stated.solution.w), facets.split(&stated.solution.w));
-    let search = Search::new(data, prior);
     let score_test = search.score_test(stated)?;
     let least =
         fluorescing.iter().map(|(_, one)| one.ln_evidence).fold(stated.ln_evidence, f64::max) + LN_AHEAD;
