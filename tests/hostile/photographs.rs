@@ -177,7 +177,7 @@ END
             case("sh extract - < empty.txt", 2, &["--files-from", "one name per line"]),
             case("sh extract missing.txt", 1, &["missing.txt", "No such file"]),
             case("sh extract bytes.txt", 1, &["bytes.txt", "UTF-8"]),
-            case("sh extract .", 1, &["folder"]),
+            case("sh extract .", 1, &["directory"]),
             case("vextract --files-from - --panel0 '0,0 9,0 9,9 0,9'", 2, &["--files-from", "--scene FILE"]),
         ],
     );
