@@ -159,8 +159,14 @@ impl Assembly {
             return 0.0;
         }
         let distance = (a.centre - b.centre).norm();
-        let exchange = far::exchange(&part_a, &part_b, [a.radius, b.radius], distance, self.truncation)
-            .unwrap_or_else(|| contour::exchange(&part_a, &part_b));
+        let exchange = match far::orders([&part_a, &part_b], [a.radius, b.radius], distance, self.truncation)
+        {
+            Some([of_a, of_b]) => far::exchange(
+                [&a.nodes(&part_a, of_a), &b.nodes(&part_b, of_b)],
+                [part_a.normal(), part_b.normal()],
+            ),
+            None => contour::exchange(&part_a, &part_b),
+        };
         share * exchange.max(0.0) / (a.polygon.area() * b.polygon.area()).sqrt()
     }
 }

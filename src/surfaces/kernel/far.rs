@@ -8,33 +8,38 @@ use crate::kernel::quadrature::Rule;
 use crate::surfaces::polygon::Polygon;
 
 /// Beyond this order of Gauss rule the contour integral is cheaper.
-const ORDER_MAX: usize = 6;
+pub const ORDER_MAX: usize = 6;
 /// Default truncation error, relative.
 pub const TOLERANCE: f64 = 1e-10;
 
 static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=ORDER_MAX).map(Rule::gauss_legendre).collect());
 
-/// Area times form factor between mutually visible triangles or quadrilaterals, to a relative `tolerance`;
-/// none if they are too near.
-///
-/// `a` and `b` lie in spheres of radii `radii` whose centres are `distance` apart.
+/// Points of a Gauss rule on a polygon, weighted by area.
+pub type Nodes = Vec<(Vec3, f64)>;
+
+/// Area times form factor between mutually visible polygons with these unit normals, by their nodes.
 #[must_use]
-pub fn exchange(a: &Polygon, b: &Polygon, radii: [f64; 2], distance: f64, tolerance: f64) -> Option<f64> {
-    if a.corners().len() > 4 || b.corners().len() > 4 {
+pub fn exchange([a, b]: [&[(Vec3, f64)]; 2], [normal_a, normal_b]: [Vec3; 2]) -> f64 {
+    let mut sum = 0.0;
+    for (p, weight_p) in a {
+        for (q, weight_q) in b {
+            let ray = q - p;
+            let square = ray.norm_squared();
+            sum -= weight_p * weight_q * ray.dot(&normal_a) * ray.dot(&normal_b) / (square * square);
+        }
+    }
+    sum / PI
+}
+
+/// Gauss orders with which [`exchange`] reaches a relative `tolerance` for two polygons in spheres of radii
+/// `radii` whose centres are `distance` apart; none if they are too near, or have more than four corners.
+#[must_use]
+pub fn orders(polygons: [&Polygon; 2], radii: [f64; 2], distance: f64, tolerance: f64) -> Option<[usize; 2]> {
+    if polygons.iter().any(|polygon| polygon.corners().len() > 4) {
         return None;
     }
     let gap = distance - radii[0] - radii[1];
-    let [nodes_a, nodes_b] =
-        [nodes(a, order(radii[0], gap, tolerance)?), nodes(b, order(radii[1], gap, tolerance)?)];
-    let mut sum = 0.0;
-    for (p, weight_p) in &nodes_a {
-        for (q, weight_q) in &nodes_b {
-            let ray = q - p;
-            let square = ray.norm_squared();
-            sum -= weight_p * weight_q * ray.dot(&a.normal()) * ray.dot(&b.normal()) / (square * square);
-        }
-    }
-    Some(sum / PI)
+    Some([order(radii[0], gap, tolerance)?, order(radii[1], gap, tolerance)?])
 }
 
 /// Gauss order for a polygon of this radius at this gap from its neighbour, if moderate (Trefethen,
@@ -47,9 +52,9 @@ fn order(radius: f64, gap: f64, tolerance: f64) -> Option<usize> {
     (order <= ORDER_MAX).then_some(order.max(1))
 }
 
-/// Points of a tensor Gauss rule on a triangle or quadrilateral, weighted by area.
+/// Nodes of a tensor rule on a triangle or quadrilateral.
 #[must_use]
-pub fn nodes(polygon: &Polygon, order: usize) -> Vec<(Vec3, f64)> {
+pub fn nodes(polygon: &Polygon, order: usize) -> Nodes {
     let rule = &RULES[order.clamp(1, ORDER_MAX) - 1];
     let node = |(u, weight_u): (f64, f64)| {
         rule.on(0.0, 1.0).map(move |(v, weight_v)| {

@@ -1,5 +1,9 @@
 //! Patches with the data needed for their form factors.
 
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
+use super::far::{Nodes, ORDER_MAX, nodes};
 use super::patches::Patch;
 use crate::geometry::Vec3;
 use crate::surfaces::polygon::{Plane, Polygon};
@@ -11,6 +15,8 @@ pub(super) struct Site {
     pub(super) centre: Vec3,
     /// Largest distance of a corner from the centre.
     pub(super) radius: f64,
+    /// Its Gauss nodes of every order that any pair needed.
+    nodes: [OnceLock<Nodes>; ORDER_MAX],
 }
 
 impl Site {
@@ -18,14 +24,14 @@ impl Site {
         let polygon = &patch.polygon;
         let (plane, centre) = (polygon.plane(), polygon.centroid());
         let radius = polygon.corners().iter().map(|corner| (corner - centre).norm()).fold(0.0, f64::max);
-        Self { polygon: polygon.clone(), plane, centre, radius }
+        Self { polygon: polygon.clone(), plane, centre, radius, nodes: Default::default() }
     }
 
     /// The part of this patch in front of the other's plane.
-    pub(super) fn in_front_of(&self, other: &Self, margin: f64) -> Option<Polygon> {
+    pub(super) fn in_front_of(&self, other: &Self, margin: f64) -> Option<Cow<'_, Polygon>> {
         let height = other.plane.height(&self.centre);
         if height >= self.radius {
-            return Some(self.polygon.clone());
+            return Some(Cow::Borrowed(&self.polygon));
         }
         if height <= -self.radius {
             return None;
@@ -35,8 +41,16 @@ impl Site {
             heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
         match (low >= -margin, high > margin) {
             (_, false) => None,
-            (true, true) => Some(self.polygon.clone()),
-            (false, true) => self.polygon.in_front_of(&other.plane),
+            (true, true) => Some(Cow::Borrowed(&self.polygon)),
+            (false, true) => self.polygon.in_front_of(&other.plane).map(Cow::Owned),
+        }
+    }
+
+    /// Gauss nodes on a part of this patch, computed once for the whole of it.
+    pub(super) fn nodes(&self, part: &Cow<Polygon>, order: usize) -> Cow<'_, [(Vec3, f64)]> {
+        match part {
+            Cow::Borrowed(whole) => Cow::Borrowed(self.nodes[order - 1].get_or_init(|| nodes(whole, order))),
+            Cow::Owned(part) => Cow::Owned(nodes(part, order)),
         }
     }
 }
