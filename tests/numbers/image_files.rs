@@ -216,7 +216,7 @@ fn what_is_no_picture_is_refused() {
     assert!(text.contains("not a PNG, TIFF, JPEG, OpenEXR or RAW picture; save it again"), "{text}");
     assert!(refusal(&written(&folder, "animation.png", b"GIF89a\x01\0\x01\0\0\0\0")).contains("not a PNG"));
     assert!(matches!(open(folder.path().join("missing.tif")), Err(Error::File { .. })));
-    assert!(matches!(open(folder.path()), Err(Error::File { .. })));
+    assert!(matches!(open(folder.path()), Err(Error::Picture { .. })));
 }
 
 /// One small picture of each format.
