@@ -1,6 +1,7 @@
 //! Patches with the data needed for their form factors.
 
 use std::borrow::Cow;
+use std::ptr;
 use std::sync::OnceLock;
 
 use super::far::{Nodes, ORDER_MAX, nodes};
@@ -46,11 +47,12 @@ impl Site {
         }
     }
 
-    /// Gauss nodes on a part of this patch, computed once for the whole of it.
-    pub(super) fn nodes(&self, part: &Cow<Polygon>, order: usize) -> Cow<'_, [(Vec3, f64)]> {
-        match part {
-            Cow::Borrowed(whole) => Cow::Borrowed(self.nodes[order - 1].get_or_init(|| nodes(whole, order))),
-            Cow::Owned(part) => Cow::Owned(nodes(part, order)),
+    /// Gauss nodes on a part of this patch, computed once if it is the whole.
+    pub(super) fn nodes(&self, part: &Polygon, order: usize) -> Cow<'_, [(Vec3, f64)]> {
+        if ptr::eq(part, &raw const self.polygon) {
+            Cow::Borrowed(self.nodes[order - 1].get_or_init(|| nodes(part, order)))
+        } else {
+            Cow::Owned(nodes(part, order))
         }
     }
 }
