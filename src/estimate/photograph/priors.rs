@@ -58,10 +58,6 @@ priors! {
     sun_mired: 187.0,
     /// Standard deviation: the effect of a tenth more or less aerosol (optical depth at 500 nm).
     sun_mired_sd: 7.0,
-    /// The same where no daylight was stated, nor the hour: computed suns 20° to 70° from the zenith.
-    unstated_sun_mired: 195.0,
-    /// Standard deviation, with that of aerosol.
-    unstated_sun_mired_sd: 11.0,
     /// Logarithm of the gains of the first and the last channel: cameras of one model differ by 2 %.
     gain_sd: 0.015,
     /// Difference between measurements of one camera model by two laboratories, relative to the peak of a

@@ -10,6 +10,10 @@ use crate::estimate::photograph::StatedScene;
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::priors::Priors;
 
+/// Reciprocal colour temperature of computed suns 20° to 70° from the zenith, 1e-6/K, with the effect of
+/// aerosol: of daylight that nobody stated, the hour is unknown, too.
+const ANY_HOUR: Normal = Normal { mean: 195.0, sd: 11.0 };
+
 /// Correlated colour temperature of the sun, K. As facets reveal little about it, the prior of direct
 /// sunlight replaces the stated value.
 pub static SUN_COLOUR: Unknown = Unknown {
@@ -28,7 +32,7 @@ pub static SUN_COLOUR: Unknown = Unknown {
         symptom: Some(Symptom {
             ideal: |stated| match stated.daylight {
                 Some(nominal) if !stated.is_daylight_assumed => 1e6 / nominal.mired(),
-                _ => 1e6 / stated.priors.unstated_sun_mired,
+                _ => 1e6 / ANY_HOUR.mean,
             },
             least: 400.0,
             words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
@@ -49,7 +53,7 @@ fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
 
 fn of_daylight((nominal, is_assumed): (Daylight, bool), priors: &Priors) -> Normal {
     match nominal {
-        _ if is_assumed => Normal { mean: priors.unstated_sun_mired, sd: priors.unstated_sun_mired_sd },
+        _ if is_assumed => ANY_HOUR,
         Daylight::Cie { .. } => Normal { mean: priors.sun_mired, sd: priors.sun_mired_sd },
         Daylight::OfSun { mired } => Normal { mean: mired, sd: priors.sun_mired_sd },
     }
