@@ -139,7 +139,7 @@ pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doub
     (!(-EXPOSURE_WRONG..=EXPOSURE_DOUBTFUL).contains(&off)).then(|| Doubt {
         level,
         because: format!(
-            "white facing the sun would be {exposure:.2} times the white level of the picture: \
+            "white facing the sun would be {exposure:.3} times the white level of the picture: \
              an improbable exposure"
         ),
         remedy: remedy.to_owned(),

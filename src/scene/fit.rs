@@ -66,7 +66,6 @@ impl FoldSetting {
             sun_power: sun,
             daylight_vectors,
             daylight,
-            is_daylight_assumed: self.is_daylight_assumed,
             fold: self.fold,
             response: self.response.clone(),
             tolerance: self.tolerance.map(|own| own.max(tolerance)),

@@ -27,8 +27,6 @@ pub struct FoldInLight {
     pub daylight_vectors: DMatrix<f64>,
     /// The daylight that the stated sun stands for, if it is any.
     pub daylight: Option<Daylight>,
-    /// True if daylight was assumed, because no light was stated.
-    pub is_daylight_assumed: bool,
     /// True if the colour of the sky is stated.
     pub has_sky_illuminant: bool,
     /// The card in place of a panel, if there is one.

@@ -10,10 +10,6 @@ use crate::estimate::photograph::StatedScene;
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::priors::Priors;
 
-/// Reciprocal colour temperature of computed suns 20° to 70° from the zenith, 1e-6/K, with the effect of
-/// aerosol: of daylight that nobody stated, the hour is unknown, too.
-const ANY_HOUR: Normal = Normal { mean: 195.0, sd: 11.0 };
-
 /// Correlated colour temperature of the sun, K. As facets reveal little about it, the prior of direct
 /// sunlight replaces the stated value.
 pub static SUN_COLOUR: Unknown = Unknown {
@@ -30,10 +26,7 @@ pub static SUN_COLOUR: Unknown = Unknown {
         prior: of_photograph,
         set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
         symptom: Some(Symptom {
-            ideal: |stated| match stated.daylight {
-                Some(nominal) if !stated.is_daylight_assumed => 1e6 / nominal.mired(),
-                _ => 1e6 / ANY_HOUR.mean,
-            },
+            ideal: |stated| 1e6 / stated.daylight.map_or(stated.priors.sun_mired, Daylight::mired),
             least: 400.0,
             words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
             remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
@@ -42,21 +35,20 @@ pub static SUN_COLOUR: Unknown = Unknown {
 };
 
 fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
-    Ok(scene.daylight.map(|nominal| of_daylight((nominal, scene.is_daylight_assumed), &Priors::USUAL)))
+    Ok(scene.daylight.map(|nominal| of_daylight(nominal, &Priors::USUAL)))
 }
 
 fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
     let shown = stated.shown.and_then(|shown| shown.sun[stated.day as usize]);
-    let usual = |nominal| of_daylight((nominal, stated.is_daylight_assumed), stated.priors);
-    stated.daylight.map(|nominal| shown.unwrap_or_else(|| usual(nominal)).into())
+    stated.daylight.map(|nominal| shown.unwrap_or_else(|| of_daylight(nominal, stated.priors)).into())
 }
 
-fn of_daylight((nominal, is_assumed): (Daylight, bool), priors: &Priors) -> Normal {
-    match nominal {
-        _ if is_assumed => ANY_HOUR,
-        Daylight::Cie { .. } => Normal { mean: priors.sun_mired, sd: priors.sun_mired_sd },
-        Daylight::OfSun { mired } => Normal { mean: mired, sd: priors.sun_mired_sd },
-    }
+fn of_daylight(nominal: Daylight, priors: &Priors) -> Normal {
+    let mean = match nominal {
+        Daylight::Cie { .. } => priors.sun_mired,
+        Daylight::OfSun { mired } => mired,
+    };
+    Normal { mean, sd: priors.sun_mired_sd }
 }
 
 /// Every sun becomes three of different colours.

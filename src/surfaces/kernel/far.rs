@@ -8,18 +8,17 @@ use crate::kernel::quadrature::Rule;
 use crate::surfaces::polygon::Polygon;
 
 /// Beyond this order of Gauss rule the contour integral is cheaper.
-pub const ORDER_MAX: usize = 6;
+pub(super) const ORDER_MAX: usize = 6;
 /// Default truncation error, relative.
-pub const TOLERANCE: f64 = 1e-10;
+pub(super) const TOLERANCE: f64 = 1e-10;
 
 static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| (1..=ORDER_MAX).map(Rule::gauss_legendre).collect());
 
 /// Points of a Gauss rule on a polygon, weighted by area.
-pub type Nodes = Vec<(Vec3, f64)>;
+pub(super) type Nodes = Vec<(Vec3, f64)>;
 
 /// Area times form factor between mutually visible polygons with these unit normals, by their nodes.
-#[must_use]
-pub fn exchange([a, b]: [&[(Vec3, f64)]; 2], [normal_a, normal_b]: [Vec3; 2]) -> f64 {
+pub(super) fn exchange([a, b]: [&[(Vec3, f64)]; 2], [normal_a, normal_b]: [Vec3; 2]) -> f64 {
     let mut sum = 0.0;
     for (p, weight_p) in a {
         for (q, weight_q) in b {
@@ -33,8 +32,12 @@ pub fn exchange([a, b]: [&[(Vec3, f64)]; 2], [normal_a, normal_b]: [Vec3; 2]) ->
 
 /// Gauss orders with which [`exchange`] reaches a relative `tolerance` for two polygons in spheres of radii
 /// `radii` whose centres are `distance` apart; none if they are too near, or have more than four corners.
-#[must_use]
-pub fn orders(polygons: [&Polygon; 2], radii: [f64; 2], distance: f64, tolerance: f64) -> Option<[usize; 2]> {
+pub(super) fn orders(
+    polygons: [&Polygon; 2],
+    radii: [f64; 2],
+    distance: f64,
+    tolerance: f64,
+) -> Option<[usize; 2]> {
     if polygons.iter().any(|polygon| polygon.corners().len() > 4) {
         return None;
     }
@@ -53,8 +56,7 @@ fn order(radius: f64, gap: f64, tolerance: f64) -> Option<usize> {
 }
 
 /// Nodes of a tensor rule on a triangle or quadrilateral.
-#[must_use]
-pub fn nodes(polygon: &Polygon, order: usize) -> Nodes {
+pub(super) fn nodes(polygon: &Polygon, order: usize) -> Nodes {
     let rule = &RULES[order.clamp(1, ORDER_MAX) - 1];
     let node = |(u, weight_u): (f64, f64)| {
         rule.on(0.0, 1.0).map(move |(v, weight_v)| {

@@ -14,7 +14,7 @@ mod cluster;
 pub mod contour;
 mod cuboid;
 pub mod direct;
-pub mod far;
+mod far;
 mod far_field;
 mod grid;
 mod hierarchy;

@@ -49,7 +49,7 @@ impl Site {
 
     /// Gauss nodes on a part of this patch, computed once if it is the whole.
     pub(super) fn nodes(&self, part: &Polygon, order: usize) -> Cow<'_, [(Vec3, f64)]> {
-        if ptr::eq(part, &raw const self.polygon) {
+        if ptr::eq(part, &self.polygon) {
             Cow::Borrowed(self.nodes[order - 1].get_or_init(|| nodes(part, order)))
         } else {
             Cow::Owned(nodes(part, order))
