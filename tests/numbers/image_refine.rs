@@ -176,7 +176,7 @@ fn the_bend_of_the_outer_side_shows_the_lens() {
         println!(
             "k1 {k1}: corners {off_px:.3} px off, through a straight lens {straight_px:.3} px, {found:?}"
         );
-        // one side leaves a sixth of what is usually expected of lenses, and pixels a tenth of one
+        // the bend of one side leaves a sixth of what was unknown of the lens; pixels add a tenth of one
         assert!(off_px < straight_px / 6.0 + 0.1, "{k1}: {off_px} {straight_px}");
     }
 }
