@@ -1,6 +1,6 @@
 //! The exchange of light between the facets of any surface, or between patches that divide them.
 //!
-//! An unobstructed pair ([`casters`]) is computed by a formula ([`contour`], or [`far`] where it is accurate
+//! An unobstructed pair ([`casters`]) is computed by a formula ([`contour`], or `far` where it is accurate
 //! to ten digits); any other loses what its casters hide ([`partial`], by exact shadows, [`shadow`]).
 //! Coplanar pairs and pairs that face away from each other exchange nothing. One number represents both
 //! directions, so that reciprocity holds by construction. In large meshes distant clusters that see each
