@@ -290,7 +290,8 @@ impl<'a> FacetData<'a> {
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
         let (scene, channels) = (self.scene.in_light(camera), self.channels.in_light(camera));
-        Self { scene: Cow::Owned(scene), channels, ..self.clone() }
+        let (values, sums, emission) = (self.values.clone(), self.sums.clone(), self.emission.clone());
+        Self { scene: Cow::Owned(scene), channels, values, sums, emission, ..*self }
     }
 
     /// The same data with a prior on the logarithm of the exposure, if it was entirely unknown.

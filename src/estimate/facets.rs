@@ -38,16 +38,11 @@ pub struct Facets<'a> {
     pub gaussian: &'a Gaussian,
 }
 
-/// Residuals and the derivatives of the model by logit, then by the scene's unknowns, about a point.
-struct ByLogit {
-    residuals: DVector<f64>,
-    jacobian: DMatrix<f64>,
-    second: Second,
-}
-
 /// Ingredients of second derivatives by logit.
 pub struct Second {
     pub reflectance: Vec<f64>,
+    /// Derivatives of the model by logit, then by the scene's unknowns.
+    jacobian: DMatrix<f64>,
     pub exposure: FittedExposure,
     pub by_reflectance: SecondDerivatives,
 }
@@ -93,7 +88,7 @@ impl Facets<'_> {
         Some((scene + fall.place, fall))
     }
 
-    fn linearised(&self, w: &DVector<f64>) -> ByLogit {
+    fn linearised(&self, w: &DVector<f64>) -> (DVector<f64>, Second) {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
         let LinearisedFacets { residuals, mut jacobian, mut exposure, second } =
@@ -108,8 +103,7 @@ impl Facets<'_> {
             jacobian.column_mut(bands + place).copy_from(&column);
             exposure.slopes[bands + place] = sd * exposure.slopes.rows(0, bands).dot(falling);
         }
-        let second = Second { reflectance, exposure, by_reflectance: second };
-        ByLogit { residuals, jacobian, second }
+        (residuals, Second { reflectance, jacobian, exposure, by_reflectance: second })
     }
 }
 
@@ -118,9 +112,8 @@ impl SpectrumModel for Facets<'_> {
         self.gaussian
     }
 
-    fn by_logit(&self, w: &DVector<f64>, _: &Linearised<Second>) -> DMatrix<f64> {
-        let bands = self.gaussian.mean().len();
-        self.linearised(w).jacobian.columns(0, bands).into_owned()
+    fn by_logit(&self, at: &Linearised<Second>) -> DMatrix<f64> {
+        at.second.jacobian.columns(0, self.gaussian.mean().len()).into_owned()
     }
 
     /// Reflectances, unknowns of the scene in their own units, exposure and, if emission is considered, the
@@ -238,8 +231,8 @@ impl Model for Facets<'_> {
     }
 
     fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
-        let ByLogit { residuals, jacobian, second } = self.linearised(w);
-        Linearised::new(residuals, whitened(&jacobian, self.gaussian), second)
+        let (residuals, second) = self.linearised(w);
+        Linearised::new(residuals, whitened(&second.jacobian, self.gaussian), second)
     }
 
     fn curvature(&self, at: &Second, multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {

@@ -11,7 +11,7 @@ pub trait SpectrumModel: Model {
     /// The Gaussian of logits behind the numbers of the spectrum.
     fn gaussian(&self) -> &Gaussian;
     /// Derivatives by logit at a point: residual by waveband.
-    fn by_logit(&self, w: &DVector<f64>, at: &Linearised<Self::Second>) -> DMatrix<f64>;
+    fn by_logit(&self, at: &Linearised<Self::Second>) -> DMatrix<f64>;
     /// The reported values at `w`: reflectance per waveband, then everything else that is estimated.
     fn values(&self, w: &DVector<f64>) -> Vec<f64>;
     /// Square root of the covariance of the values at a mode: its transpose times itself is the covariance.

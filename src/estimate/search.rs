@@ -23,6 +23,10 @@ use crate::solve::posterior::{Iteration, Limits, Model, Solution, find_mode, fir
 const SORTING_TOLERANCE: f64 = 0.3;
 const TELLING_TOLERANCE: f64 = 10.0;
 const SORTING_LIMIT: usize = 500;
+/// Each of many hypotheses starts near its mode, from that of a similar one: with this share of the usual
+/// initial noise, and only until this many standard deviations are left, over which a linear model holds.
+const SHARE_OF_MANY: f64 = 0.2;
+const FORESEEABLE: f64 = 30.0;
 /// Classes are distinguished at these noise levels, relative to the brightest datum, or at the true one if
 /// that is larger. At the coarse level the search under all spectra leads to a point where the model is
 /// nearly linear; at the fine level the search under the most probable class does.
@@ -112,10 +116,14 @@ impl<'a, F: Family> Search<'a, F> {
     ) -> Option<Sorted<F::Hypothesis, F::Second>> {
         let model = self.family.model(hypothesis, self.prior.broad())?;
         let start = start.unwrap_or_else(|| DVector::zeros(model.unknowns()));
-        let first = first_tempering(&model, &start, self.coarse);
+        let is_one_of_many = self.family.has_many_hypotheses();
+        let (share, tolerance) =
+            if is_one_of_many { (SHARE_OF_MANY, FORESEEABLE) } else { (1.0, SORTING_TOLERANCE) };
+        let first = (share * first_tempering(&model, &start, self.coarse)).max(self.coarse);
         let ln_evidence = ln_least - ln_share - model.ln_whitening();
         let limits = Limits { iterations: SORTING_LIMIT, ln_evidence };
-        let solution = find_mode(&model, start, (first, self.coarse), SORTING_TOLERANCE, limits);
+        let found = find_mode(&model, start, (first, self.coarse), tolerance, limits);
+        let solution = if is_one_of_many { found.foreseen(self.coarse)? } else { found };
         self.trace.push(solution.trace.clone());
         let ln_evidence = solution.ln_evidence(self.coarse)? + model.ln_whitening();
         ln_evidence.is_finite().then_some(Sorted { hypothesis, ln_share, ln_evidence, solution })
@@ -236,7 +244,7 @@ impl<'a, F: Family> Search<'a, F> {
         let model = self.family.model(one.hypothesis, self.prior.broad())?;
         let of = (one.hypothesis, one.ln_share);
         let tolerance = TELLING_TOLERANCE * self.family.tolerance();
-        if tolerance >= SORTING_TOLERANCE {
+        if tolerance >= SORTING_TOLERANCE || self.family.has_many_hypotheses() {
             return Linear::laplace(&model, (&one.solution.w, &one.solution.at), self.coarse, of);
         }
         let Solution { w, at, .. } =

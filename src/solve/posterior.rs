@@ -137,6 +137,18 @@ impl<S> Solution<S> {
         Some(-0.5 * (cost(weight, &self.w, &self.at.residuals) + information.ln_determinant()))
     }
 
+    /// The minimum of the model linearised here, with the noise scaled by `tempering`, and that model there:
+    /// close enough to a minimum it is as good as another step. `None` if the model is not finite.
+    #[must_use]
+    pub fn foreseen(mut self, tempering: f64) -> Option<Self> {
+        let weight = tempering.powi(-2);
+        let descent = weight * self.at.jacobian.tr_mul(&self.at.residuals) - &self.w;
+        let step = cholesky(self.at.gauss_newton(weight))?.solve(&descent);
+        self.at.residuals -= &self.at.jacobian * &step;
+        self.w += step;
+        Some(self)
+    }
+
     /// Twice the objective, with the noise scaled by `tempering`.
     #[must_use]
     pub fn cost(&self, tempering: f64) -> f64 {

@@ -153,7 +153,7 @@ impl SpectrumModel for JointModel<'_> {
         self.first().model.gaussian()
     }
 
-    fn by_logit(&self, _: &DVector<f64>, at: &Linearised<()>) -> DMatrix<f64> {
+    fn by_logit(&self, at: &Linearised<()>) -> DMatrix<f64> {
         let basis = self.gaussian().basis();
         let coordinates_of = basis.tr_mul(basis).cholesky().map(|factor| factor.solve(&basis.transpose()));
         let (coordinates, bands) = (basis.ncols(), basis.nrows());

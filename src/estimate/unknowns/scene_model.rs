@@ -102,7 +102,8 @@ impl SceneModel {
     /// The same scene with another light in place of that of every source, given the camera's response to it.
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
-        Self { facets: self.facets.in_light(camera), emissions: Arc::default(), ..self.clone() }
+        let Self { facets, unknowns, factors, .. } = self;
+        Self::new(facets.in_light(camera), unknowns.clone(), factors.clone())
     }
 
     /// The same scene with one unknown fixed at this value.
