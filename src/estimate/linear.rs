@@ -288,11 +288,11 @@ impl LinearClass {
             .by_class
             .zip_map(by_beyond, |by_class, by_beyond| scale * (by_class + roughness * by_beyond));
         let mut off = self.off.clone();
-        let (mut cost, mut determinant) = (0.0, 1.0);
+        let (mut cost, mut ln_determinant) = (0.0, 0.0);
         for n in 0..off.len() {
             let variance = left[(n, n)] + 1.0;
             cost += off[n].powi(2) / variance;
-            determinant *= variance;
+            ln_determinant += f64::ln(variance);
             for column in n + 1..off.len() {
                 let share = left[(column, n)] / variance;
                 off[column] -= share * off[n];
@@ -301,7 +301,7 @@ impl LinearClass {
                 }
             }
         }
-        let ln_evidence = -0.5 * (cost + f64::ln(determinant));
+        let ln_evidence = -0.5 * (cost + ln_determinant);
         ln_evidence.is_finite().then_some(ln_evidence)
     }
 
@@ -431,4 +431,48 @@ impl<H: Copy> Candidate<H> {
 
 fn joined(spectrum: &DVector<f64>, others: &DVector<f64>) -> DVector<f64> {
     DVector::from_iterator(spectrum.len() + others.len(), spectrum.iter().chain(others).copied())
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// The evidence is that of a normal distribution, by a library's factor of its covariance, and the
+        /// first values bound it from above.
+        #[test]
+        fn a_few_values_bound_the_evidence_of_all(
+            entries in prop::collection::vec(-1.0_f64..1.0, 36),
+            off in prop::collection::vec(-3.0_f64..3.0, 6),
+            ln_precision in 0.0_f64..7.0,
+        ) {
+            let (precision, beyond) = (ln_precision.exp(), DMatrix::from_row_slice(6, 6, &entries[..36]));
+            let own = precision * &beyond;
+            let by_beyond = 0.1 * precision * precision * beyond.transpose() * &beyond;
+            let of = |count: usize| {
+                let off = DVector::from_column_slice(&off[..count]) * precision;
+                let by_class = (&own * own.transpose()).view((0, 0), (count, count)).into_owned();
+                let by_beyond = by_beyond.view((0, 0), (count, count)).into_owned();
+                (LinearClass { off, by_class }, by_beyond)
+            };
+            let (class, by_beyond) = of(6);
+            let ln_evidence = class.ln_evidence(&by_beyond, 1.1, 1).unwrap();
+            let scale = 1.1_f64.powi(2);
+            let covariance = DMatrix::identity(6, 6)
+                + scale * (&class.by_class + ROUGHNESSES[1].0.powi(2) * &by_beyond);
+            let factor = Cholesky::new(covariance).unwrap();
+            let cost = class.off.dot(&factor.solve(&class.off));
+            let want = -0.5 * (cost + factor.ln_determinant());
+            prop_assert!((ln_evidence - want).abs() < 1e-6 * want.abs().max(1.0), "{ln_evidence} {want}");
+            let mut bound = 0.0;
+            for count in 1..=6 {
+                let (class, by_beyond) = of(count);
+                let first = class.ln_evidence(&by_beyond, 1.1, 1).unwrap();
+                prop_assert!(first <= bound + 1e-6 * first.abs(), "{count}: {first} {bound}");
+                bound = first;
+            }
+        }
+    }
 }

@@ -24,9 +24,10 @@ const SORTING_TOLERANCE: f64 = 0.3;
 const TELLING_TOLERANCE: f64 = 10.0;
 const SORTING_LIMIT: usize = 500;
 /// Each of many hypotheses starts near its mode, from that of a similar one: with this share of the usual
-/// initial noise, and only until this many standard deviations are left, over which a linear model holds.
+/// initial noise, and only until data are to change by no more than this share of the brightest, over which
+/// a linear model holds.
 const SHARE_OF_MANY: f64 = 0.2;
-const FORESEEABLE: f64 = 30.0;
+const FORESEEABLE: f64 = 0.03;
 /// Classes are distinguished at these noise levels, relative to the brightest datum, or at the true one if
 /// that is larger. At the coarse level the search under all spectra leads to a point where the model is
 /// nearly linear; at the fine level the search under the most probable class does.
@@ -117,8 +118,11 @@ impl<'a, F: Family> Search<'a, F> {
         let model = self.family.model(hypothesis, self.prior.broad())?;
         let start = start.unwrap_or_else(|| DVector::zeros(model.unknowns()));
         let is_one_of_many = self.family.has_many_hypotheses();
-        let (share, tolerance) =
-            if is_one_of_many { (SHARE_OF_MANY, FORESEEABLE) } else { (1.0, SORTING_TOLERANCE) };
+        let (share, tolerance) = if is_one_of_many {
+            (SHARE_OF_MANY, (FORESEEABLE * self.family.peak() / self.coarse).max(SORTING_TOLERANCE))
+        } else {
+            (1.0, SORTING_TOLERANCE)
+        };
         let first = (share * first_tempering(&model, &start, self.coarse)).max(self.coarse);
         let ln_evidence = ln_least - ln_share - model.ln_whitening();
         let limits = Limits { iterations: SORTING_LIMIT, ln_evidence };
