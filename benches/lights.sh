@@ -26,6 +26,7 @@ made_by=$(machine "$bin/vkernel")
     echo 'one of the eight, and stated wrongly (as each other of the eight), and RMSE of the flat patch in unknown light. D60, the sun, LED-B2, FL8 and the flash'
     echo 'are not among the candidates: these are all lights of `--illuminant unknown`, without LED-B2 and FL8 where one of them is the true light.'
     echo 'The number of lights that are kept was raised once with this table in view, after other sheets of the same sets (`lights.py --pick 7`) had shown why.'
+    echo 'How far searches go, and how far behind lights are dropped, was chosen by `lights.py --pick 7` and patches of the ColorChecker, which are in this table, too.'
     echo
     python3 -B benches/lights.py "$bin" "$shared"
 } | tee "$page.new"

@@ -14,8 +14,8 @@ use crate::estimate::map::into_estimate;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 
-/// Lights whose log evidence under all spectra is this far below the best are dropped: all of them together
-/// hardly ever have a probability of 0.01.
+/// Lights whose log evidence under all spectra is this far below the best are dropped: knowing the class of
+/// spectra rarely changes as much.
 const LN_EVIDENCE_HOPELESS: f64 = -6.0;
 /// Maximum number of lights under which classes of spectra are distinguished.
 const DISTINCT_ODDS: usize = 48;
