@@ -3,7 +3,7 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::dense::cholesky;
-use super::posterior::{Model, Solution, cost};
+use super::posterior::{GaussNewton, Model, Solution, cost};
 
 /// At a mode, predicts how much more probable the data become if the model has one more degree of freedom.
 ///
@@ -60,9 +60,8 @@ fn ln_gain(slope: f64, bend: f64, least: f64) -> f64 {
 /// not finite.
 pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, tempering: f64) -> Option<f64> {
     let (at, weight) = (model.linearise(w), tempering.powi(-2));
-    let descent = weight * at.jacobian.tr_mul(&at.residuals) - w;
-    let step = cholesky(at.gauss_newton(weight))?.solve(&descent);
-    Some(cost(weight, w, &at.residuals) - descent.dot(&step))
+    let step = GaussNewton::at(w, &at, weight)?;
+    Some(cost(weight, w, &at.residuals) - step.decrement.powi(2))
 }
 
 #[cfg(test)]
@@ -108,5 +107,9 @@ mod tests {
         assert!(test.ln_gain_by(1.0, &-&change) < 0.0);
         let foreseen = foreseen_cost(&Line, &DVector::from_element(1, -5.0), 1.0).unwrap();
         assert!((foreseen - found.cost(1.0)).abs() < 1e-9, "{foreseen}");
+        let moved =
+            find_mode(&Line, DVector::from_element(1, -5.0), (1.0, 1.0), 1e-9, 0).foreseen(1.0).unwrap();
+        assert!((&moved.w - &found.w).amax() < 1e-12);
+        assert!((&moved.at.residuals - &found.at.residuals).amax() < 1e-12);
     }
 }

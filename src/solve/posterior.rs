@@ -141,9 +141,7 @@ impl<S> Solution<S> {
     /// close enough to a minimum it is as good as another step. `None` if the model is not finite.
     #[must_use]
     pub fn foreseen(mut self, tempering: f64) -> Option<Self> {
-        let weight = tempering.powi(-2);
-        let descent = weight * self.at.jacobian.tr_mul(&self.at.residuals) - &self.w;
-        let step = cholesky(self.at.gauss_newton(weight))?.solve(&descent);
+        let step = GaussNewton::at(&self.w, &self.at, tempering.powi(-2))?.direction;
         self.at.residuals -= &self.at.jacobian * &step;
         self.w += step;
         Some(self)
@@ -213,7 +211,7 @@ pub fn find_mode<M: Model>(
     let mut steps = 0;
     let termination = loop {
         // With the noise scaled by `now`, squared residuals have weight 1/now².
-        let Some(newton) = search.gauss_newton(now.powi(-2)) else {
+        let Some(newton) = GaussNewton::at(&search.w, &search.at, now.powi(-2)) else {
             break Termination::NoProgress { gradient_norm: f64::INFINITY };
         };
         let gradient_norm = newton.decrement;
@@ -276,27 +274,29 @@ struct Search<'a, M: Model> {
 }
 
 /// A Gauss-Newton step, with data weighted by `weight`, and its ingredients.
-struct GaussNewton {
+pub(super) struct GaussNewton {
     weight: f64,
     hessian: DMatrix<f64>,
     factor: Cholesky<f64, Dyn>,
     descent: DVector<f64>,
     direction: DVector<f64>,
-    /// Norm of the gradient in the metric of the Hessian.
-    decrement: f64,
+    /// Norm of the gradient in the metric of the Hessian, the square of which the cost can fall by.
+    pub(super) decrement: f64,
 }
 
-impl<M: Model> Search<'_, M> {
-    /// `None` if the model is not finite.
-    fn gauss_newton(&self, weight: f64) -> Option<GaussNewton> {
-        let descent = weight * self.at.jacobian.tr_mul(&self.at.residuals) - &self.w;
-        let hessian = self.at.gauss_newton(weight);
+impl GaussNewton {
+    /// From a point; `None` if the model is not finite.
+    pub(super) fn at<S>(w: &DVector<f64>, at: &Linearised<S>, weight: f64) -> Option<Self> {
+        let descent = weight * at.jacobian.tr_mul(&at.residuals) - w;
+        let hessian = at.gauss_newton(weight);
         let factor = cholesky(hessian.clone())?;
         let direction = factor.solve(&descent);
         let decrement = descent.dot(&direction).max(0.0).sqrt();
-        Some(GaussNewton { weight, hessian, factor, descent, direction, decrement })
+        Some(Self { weight, hessian, factor, descent, direction, decrement })
     }
+}
 
+impl<M: Model> Search<'_, M> {
     fn cost(&self, newton: &GaussNewton) -> f64 {
         cost(newton.weight, &self.w, &self.at.residuals)
     }
