@@ -10,8 +10,9 @@ use nalgebra::{DMatrix, DVector, DVectorView};
 
 use super::channels::Channels;
 use super::compress::{compress, sample_terms, sum_of_rows, weighted};
-use super::emission::terms::{Made, made};
-use super::emission::{Emission, Sent};
+use super::emission::terms::{ExcitingBounces, Made, made};
+use super::emission::{EXCITING_PLACE, Emission, Fall, Sent, UNKNOWNS};
+use super::gaussian::logistic;
 use super::measured::{Measured, usable_facets};
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -91,6 +92,7 @@ pub struct SecondDerivatives {
 /// Emission of the sheet at a point.
 struct Emitted {
     sent: Sent,
+    exciting: ExcitingBounces,
     made: Made,
 }
 
@@ -180,35 +182,47 @@ impl<'a> FacetData<'a> {
         self.may_fluoresce && self.exposure != Exposure::Sum && self.scene.facets().signed_poles().is_some()
     }
 
-    /// Changes of the residuals of a sheet without emission caused by each of these emissions at its usual
-    /// size; empty if emission is not considered.
+    /// Changes of the residuals of a sheet without emission caused by each of these emissions at each of its
+    /// [sizes](Emission::sizes), with their probabilities; empty if emission is not considered.
     #[must_use]
     pub fn changes_with(
         &self,
         emissions: &[Emission],
-        reflectance: &[f64],
+        (logit, reflectance): (&DVector<f64>, &[f64]),
         unknowns: &[f64],
-    ) -> Vec<DVector<f64>> {
+    ) -> Vec<Vec<(f64, DVector<f64>)>> {
         if !self.may_emit() {
             return Vec::new();
         }
-        let terms = self.scene.facets().terms_of(reflectance);
         let amounts = self.scene.amounts(unknowns).values();
-        let values = self.channels.parts_of(&terms) * &amounts;
-        // datum by waveband, for emission equal to white in each
-        let by_band =
-            self.channels.columns_of(&made(reflectance, &terms, &self.signed_poles(), 0), &amounts, 0);
-        let of_sheet = |emission: &Emission| {
+        let plain = self.in_each_band(reflectance, &amounts);
+        let residuals = |values: &DVector<f64>| self.left_over(self.exposure_of(values, || 1.0), values);
+        let before = residuals(&plain.0);
+        let changes = |emission: &Emission| {
+            let usual = [0.0; UNKNOWNS];
+            let fallen = emission.fall(&usual).map(|Fall { amount, falling, .. }| {
+                let fallen = logit + amount * falling;
+                fallen.iter().map(|z| logistic(*z)).collect::<Vec<_>>()
+            });
+            let own = fallen.as_ref().map(|fallen| self.in_each_band(fallen, &amounts));
+            let (values, by_band) = own.as_ref().unwrap_or(&plain);
             let mut sent = emission.usual().clone();
             sent.iter_mut()
                 .zip(reflectance)
                 .for_each(|(sent, r)| *sent *= r.powi(emission.power_of_reflectance()));
-            sent
+            let emitted = by_band * sent;
+            let change = |size: f64| &before - residuals(&(values + size * &emitted));
+            emission.sizes().map(|(probability, size)| (probability, change(size))).to_vec()
         };
-        let residuals = |values: &DVector<f64>| self.left_over(self.exposure_of(values, || 1.0), values);
-        let before = residuals(&values);
-        let change = |emission: &Emission| &before - residuals(&(&values + &by_band * of_sheet(emission)));
-        emissions.iter().map(change).collect()
+        emissions.iter().map(changes).collect()
+    }
+
+    /// The data for a reflectance, and the changes per waveband for emission equal to white there; bounces of
+    /// the exciting light, which change little, are omitted.
+    fn in_each_band(&self, reflectance: &[f64], amounts: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let (terms, poles) = (self.scene.facets().terms_of(reflectance), self.signed_poles());
+        let emitted = made(reflectance, &terms, &poles, (0, &vec![1.0; poles.len()]));
+        (self.channels.parts_of(&terms) * amounts, self.channels.columns_of(&emitted, amounts, 0))
     }
 
     /// The possible emission of the sheet; `None` if it is not considered.
@@ -223,18 +237,19 @@ impl<'a> FacetData<'a> {
         self.scene.unknowns().len() + self.emission.as_ref().map_or(0, Emission::unknowns)
     }
 
-    /// The emission of the sheet; `None` without any.
-    fn sent(&self, unknowns: &[f64]) -> Option<(&Emission, Sent)> {
+    /// The emission of the sheet with its unknowns; `None` without any.
+    fn emits<'w>(&self, unknowns: &'w [f64]) -> Option<(&Emission, &'w [f64])> {
         let emission = self.emission.as_ref().filter(|emission| emission.unknowns() > 0)?;
-        Some((emission, emission.at(&unknowns[self.scene.unknowns().len()..])))
+        Some((emission, &unknowns[self.scene.unknowns().len()..]))
     }
 
     /// The emission of the sheet at a point, given the terms of reflected light and their derivatives; `None`
     /// without any.
     fn emitted(&self, reflectance: &[f64], unknowns: &[f64], terms: [&DMatrix<f64>; 3]) -> Option<Emitted> {
-        let (emission, sent) = self.sent(unknowns)?;
-        let power = emission.power_of_reflectance();
-        Some(Emitted { sent, made: Made::of(reflectance, terms, &self.signed_poles(), power) })
+        let ((emission, w), poles) = (self.emits(unknowns)?, self.signed_poles());
+        let exciting = emission.exciting_bounces(&poles, w);
+        let made = Made::of(reflectance, terms, &poles, (emission.power_of_reflectance(), &exciting));
+        Some(Emitted { sent: emission.at(w), exciting, made })
     }
 
     /// Signed poles, one per term.
@@ -321,9 +336,12 @@ impl<'a> FacetData<'a> {
     #[must_use]
     pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Residuals {
         let mut terms = self.scene.facets().terms_of(reflectance);
-        if let Some((emission, sent)) = self.sent(unknowns) {
-            let made = made(reflectance, &terms, &self.signed_poles(), emission.power_of_reflectance());
-            terms += scaled_rows(&made, sent.fraction.as_slice());
+        if let Some((emission, w)) = self.emits(unknowns) {
+            let poles = self.signed_poles();
+            let exciting = emission.exciting_bounces(&poles, w);
+            let how = (emission.power_of_reflectance(), exciting.factors.as_slice());
+            let made = made(reflectance, &terms, &poles, how);
+            terms += scaled_rows(&made, emission.at(w).fraction.as_slice());
         }
         let amounts = self.scene.amounts(unknowns).values();
         let values = self.channels.parts_of(&terms) * &amounts;
@@ -340,7 +358,7 @@ impl<'a> FacetData<'a> {
     pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
         let [mut terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
         let emitted = self.emitted(reflectance, unknowns, [&terms, &slopes, &curvatures]);
-        if let Some(Emitted { sent, made }) = &emitted {
+        if let Some(Emitted { sent, made, .. }) = &emitted {
             terms += scaled_rows(&made.terms, sent.fraction.as_slice());
             slopes += scaled_rows(&made.slopes, sent.fraction.as_slice());
             curvatures += scaled_rows(&made.curvatures, sent.fraction.as_slice());
@@ -352,11 +370,15 @@ impl<'a> FacetData<'a> {
         let (bands, scene) = (slopes.nrows(), by_unknown.ncols());
         let mut jacobian = self.channels.columns_of(&slopes, &now, self.unknowns());
         jacobian.columns_mut(bands, scene).gemm(1.0, &parts, &by_unknown, 0.0);
-        if let Some(Emitted { sent, made: Made { terms, .. } }) = &emitted {
+        if let Some(Emitted { sent, exciting, made: Made { terms, .. } }) = &emitted {
+            let column = |terms: &DMatrix<f64>| self.channels.parts_of(terms) * &now;
             for (n, by) in sent.slopes.column_iter().enumerate() {
-                let column = self.channels.parts_of(&scaled_rows(terms, by.as_slice())) * &now;
+                let column = column(&scaled_rows(terms, by.as_slice()));
                 jacobian.column_mut(bands + scene + n).copy_from(&column);
             }
+            let by_exciting = scaled_columns(terms, &exciting.slopes);
+            let column = column(&scaled_rows(&by_exciting, sent.fraction.as_slice()));
+            jacobian.column_mut(bands + scene + EXCITING_PLACE).copy_from(&column);
         }
         jacobian *= exposure;
         // Effect of a relative change of the exposure.
@@ -397,7 +419,7 @@ impl<'a> FacetData<'a> {
         unknowns
             .view_mut((0, 0), (scene, scene))
             .copy_from(&(at.exposure * at.amounts.curvature(&at.parts.tr_mul(multipliers))));
-        if let Some(Emitted { sent, made: Made { terms, slopes, .. } }) = &at.emitted {
+        if let Some(Emitted { sent, exciting, made: Made { terms, slopes, .. } }) = &at.emitted {
             let along = |terms: &DMatrix<f64>, amounts: &DVector<f64>| {
                 at.exposure * self.channels.along(multipliers, terms, amounts)
             };
@@ -406,11 +428,22 @@ impl<'a> FacetData<'a> {
             unknowns.view_mut((scene, scene), (count, count)).copy_from(&sent.curvature(&by_fraction));
             let of_slopes = along(slopes, &now);
             mixed.extend(sent.slopes.column_iter().map(|by| by.component_mul(&of_slopes)));
+            let [by_exciting, slopes_by_exciting] =
+                [terms, slopes].map(|terms| scaled_columns(terms, &exciting.slopes));
             for (n, amounts) in by_unknown.column_iter().enumerate() {
-                let both = sent.slopes.tr_mul(&along(terms, &amounts.into_owned()));
+                let amounts = amounts.into_owned();
+                let mut both = sent.slopes.tr_mul(&along(terms, &amounts));
+                both[EXCITING_PLACE] = sent.fraction.dot(&along(&by_exciting, &amounts));
                 unknowns.view_mut((scene, n), (count, 1)).copy_from(&both);
                 unknowns.view_mut((n, scene), (1, count)).tr_copy_from(&both);
             }
+            let mut of_exciting = sent.slopes.tr_mul(&along(&by_exciting, &now));
+            of_exciting[EXCITING_PLACE] =
+                sent.fraction.dot(&along(&scaled_columns(terms, &exciting.bends), &now));
+            let place = scene + EXCITING_PLACE;
+            unknowns.view_mut((scene, place), (count, 1)).copy_from(&of_exciting);
+            unknowns.view_mut((place, scene), (1, count)).tr_copy_from(&of_exciting);
+            mixed[place] = sent.fraction.component_mul(&along(&slopes_by_exciting, &now));
         }
         Curvature {
             slopes: at.exposure * self.channels.along(multipliers, &at.slopes, &now),
@@ -490,6 +523,13 @@ impl<'a> FacetData<'a> {
         let all: Vec<f64> = by_reflectance.iter().copied().chain(by_unknown).collect();
         DVector::from_vec(all) / self.sum_of(terms, amounts).sum().max(f64::MIN_POSITIVE)
     }
+}
+
+/// Multiplies each column by a factor.
+fn scaled_columns(matrix: &DMatrix<f64>, factors: &[f64]) -> DMatrix<f64> {
+    let mut scaled = matrix.clone();
+    scaled.column_iter_mut().zip(factors).for_each(|(mut column, factor)| column.scale_mut(*factor));
+    scaled
 }
 
 /// Multiplies each row by a factor.

@@ -26,33 +26,32 @@ pub struct Fluorescence {
 }
 
 impl Fluorescence {
-    /// The doubt that it casts on an estimate: where visible light excites the sheet, bounced light does so,
-    /// too, which is not modelled.
+    /// The doubt that it casts on an estimate: bands of dyes differ from the model's, and are large.
     #[must_use]
     pub fn doubt(&self) -> Option<Doubt> {
-        let remedy = "measure it with a bispectral instrument";
-        let because = || {
-            format!("this sheet fluoresces at about {:.0} nm; vfold can't measure it", self.rounded_peak_nm())
-        };
-        (self.origin == Origin::Visible).then(|| Doubt::new(because(), remedy))
+        let because = self.words().filter(|_| self.origin == Origin::Visible)?;
+        Some(Doubt::new(because, "measure it with a bispectral instrument"))
     }
 
-    /// A sentence about a brightener, or light from behind.
+    /// A sentence about it; `None` if it is not worth mentioning.
     #[must_use]
     pub fn words(&self) -> Option<String> {
         let Self { probability, size, size_sd, .. } = self;
-        let per_cent = 100.0 * probability;
+        let (per_cent, peak_nm) = (100.0 * probability, self.rounded_peak_nm());
         match self.origin {
             Origin::Ultraviolet => Some(format!(
                 "with a probability of {per_cent:.0} % the sheet contains a brightener: \
-                 at about {:.0} nm it emits {size:.2} ± {size_sd:.2} of white under this light",
-                self.rounded_peak_nm()
+                 at about {peak_nm:.0} nm it emits {size:.2} ± {size_sd:.2} of white under this light",
             )),
-            Origin::Behind if *size > NOTEWORTHY => Some(format!(
-                "with a probability of {per_cent:.0} % light from behind comes through the sheet, \
-                 {size:.2} ± {size_sd:.2} of white; back it with black card"
-            )),
-            Origin::Behind | Origin::Visible => None,
+            Origin::Behind => (*size > NOTEWORTHY).then(|| {
+                format!(
+                    "with a probability of {per_cent:.0} % light from behind comes through the sheet, \
+                     {size:.2} ± {size_sd:.2} of white; back it with black card"
+                )
+            }),
+            Origin::Visible => {
+                Some(format!("this sheet fluoresces at about {peak_nm:.0} nm; vfold can't measure it"))
+            }
         }
     }
 

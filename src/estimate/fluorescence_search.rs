@@ -12,10 +12,9 @@ use super::prior::Prior;
 use super::search::{Search, Sorted};
 use crate::solve::forecast::ScoreTest;
 
-/// A band is searched if the linear model predicts at least this gain in log evidence, including prior
-/// probabilities, at no less than this multiple of its usual size: less changes nothing.
-const LN_EVIDENCE_LEAST: f64 = -1.5;
-const LEAST_SIZE: f64 = 0.25;
+/// A band is searched if linear models predict that the sheet has it with at least these log odds: less
+/// changes nothing.
+const LN_ODDS_LEAST: f64 = -2.0;
 /// Bands whose log evidence under all spectra is this far below the best are dropped.
 const LN_EVIDENCE_HOPELESS: f64 = -12.0;
 /// Distance of the facets from a sheet without emission, in standard deviations beyond chance, above which
@@ -24,14 +23,15 @@ const SURPRISE: f64 = 5.0;
 /// Probability above which a sheet is reported to fluoresce.
 const PROBABLE: f64 = 0.5;
 
-/// True if a sheet with these logits may have a band, predicted from the change of the residuals with it.
+/// True if a sheet with these logits may have a band, predicted from the changes of the residuals with each
+/// of its [sizes](Emission::sizes).
 pub fn is_hopeful(
     test: &ScoreTest,
-    change: &DVector<f64>,
+    changes: &[(f64, DVector<f64>)],
     emission: &Emission,
     logit: &DVector<f64>,
 ) -> bool {
-    test.ln_gain_by(LEAST_SIZE, change) + emission.ln_share(logit) > LN_EVIDENCE_LEAST
+    test.ln_gain_among(changes) + emission.ln_share(logit) > LN_ODDS_LEAST
 }
 
 /// Facets as data of a fluorescent sheet, and their mode under all spectra.
@@ -46,16 +46,16 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
     let facets = Facets { data, gaussian: prior.broad() };
     let (logit, unknowns) = facets.split(&plain.solution.w);
     let reflectance = facets.reflectance_at(&plain.solution.w);
-    let changes = data.changes_with(bands, &reflectance, unknowns.as_slice());
+    let changes = data.changes_with(bands, (&logit, &reflectance), unknowns.as_slice());
     let is_unexplained = of_plain.surprise(plain) > SURPRISE;
     let mut best = plain.ln_evidence;
     let mut all = Vec::new();
-    for (emission, change) in bands.iter().zip(changes) {
+    for (emission, changes) in bands.iter().zip(changes) {
         // a free exposure absorbs light from behind
         if emission.origin() == Some(Origin::Behind) && data.fits_exposure() {
             continue;
         }
-        if !is_unexplained && !is_hopeful(&test, &change, emission, &logit) {
+        if !is_unexplained && !is_hopeful(&test, &changes, emission, &logit) {
             continue;
         }
         let Some(emitting) = data.emitting(emission) else { continue };

@@ -232,7 +232,8 @@ impl<'a> Inference<'a> {
         }
         doubts.extend(estimate.fluorescence.as_ref().and_then(Fluorescence::doubt));
         let mut verdict = Verdict::of(&estimate, doubts, &self.stated.to_string());
-        if let Some(sentence) = estimate.fluorescence.as_ref().and_then(Fluorescence::words) {
+        let sentence = estimate.fluorescence.as_ref().and_then(Fluorescence::words);
+        if let Some(sentence) = sentence.filter(|sentence| !verdict.because.contains(sentence)) {
             verdict.because = format!("{}; {sentence}", verdict.because);
         }
         Measurement { wavelengths_nm: self.wavelengths_nm.to_vec(), estimate, verdict, unmodelled: None }

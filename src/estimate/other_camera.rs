@@ -78,7 +78,7 @@ pub fn rival_camera(
     others: &OtherCameras,
     prior: &Prior,
 ) -> Option<Rival> {
-    let Modes { photographs, of_days } = modes;
+    let Modes { photographs, of_days, ln_by_emission } = modes;
     let (day, mode) = of_days.iter().find(|(of, _)| day.is_none_or(|day| day == *of))?;
     let hypothesis = Hypothesis::on_dull_day(*day, SheetModel::Family);
     let mut search = Search::new(photographs, prior);
@@ -96,11 +96,11 @@ pub fn rival_camera(
             let change = residuals - family.residuals(hypothesis, &start, prior)?;
             let ln_gain = test.ln_gain_by(1.0, &change);
             drop(family);
-            (ln_gain > LN_HOPEFUL).then_some((ln_gain, camera, parts, start))
+            (ln_gain > LN_HOPEFUL + ln_by_emission).then_some((ln_gain, camera, parts, start))
         })
         .collect();
     hopeful.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
-    let least = stated.ln_weight() + LN_AHEAD;
+    let least = stated.ln_weight() + ln_by_emission + LN_AHEAD;
     let by_classes = hopeful.into_iter().take(SEARCHED).filter_map(|(_, camera, parts, start)| {
         let family = photographs.in_light_of(&parts);
         let mut search = Search::new(&family, prior);
@@ -110,5 +110,5 @@ pub fn rival_camera(
     });
     let by_classes: Vec<_> = by_classes.collect();
     (!by_classes.is_empty()).then_some(())?;
-    Rival::of(by_classes.into_iter(), search.ln_evidence_by_classes(&stated)?, LN_ODDS)
+    Rival::of(by_classes.into_iter(), search.ln_evidence_by_classes(&stated)? + ln_by_emission, LN_ODDS)
 }

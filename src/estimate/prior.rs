@@ -8,6 +8,7 @@ use super::built_in::{TabledClass, classes_on};
 use super::classes::{divide, moments, shrunk};
 use super::gaussian::{Gaussian, logit};
 use crate::error::{Error, Result, counted};
+use crate::solve::ln_sum;
 
 /// Correlation length and standard deviation, in logit, of deviations of spectra from the set behind a prior,
 /// if all spectra are one Gaussian; also used to distinguish classes.
@@ -178,7 +179,7 @@ impl Prior {
     #[must_use]
     pub fn ln_shares(&self, power: f64) -> Vec<f64> {
         let powers: Vec<f64> = self.classes.iter().map(|class| power * class.ln_share).collect();
-        let ln_all = powers.iter().map(|ln| ln.exp()).sum::<f64>().ln();
+        let ln_all = ln_sum(&powers);
         powers.into_iter().map(|ln| ln - ln_all).collect()
     }
 

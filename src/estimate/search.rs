@@ -14,9 +14,9 @@ use super::mixture::{LocalMode, Mixture, Unsearched};
 use super::most_evidence::{APART, of_most_evidence};
 use super::prior::Prior;
 use super::starts::{between_means, from_means};
-use crate::solve::Termination;
 use crate::solve::forecast::{ScoreTest, foreseen_cost};
 use crate::solve::posterior::{Iteration, Limits, Model, Solution, find_mode, first_tempering};
+use crate::solve::{Termination, ln_sum};
 
 /// A mode needed only for sorting counts as found within this many standard deviations, and one at which
 /// classes are distinguished within this many times the [tolerance](Family::tolerance).
@@ -263,8 +263,7 @@ impl<'a, F: Family> Search<'a, F> {
             return Some(one.ln_evidence);
         }
         let all = candidates(self.family, vec![self.laplace(one)?], self.prior);
-        let most = all.first()?.ln_evidence;
-        Some(most + all.iter().map(|class| (class.ln_evidence - most).exp()).sum::<f64>().ln())
+        Some(ln_sum(&all.iter().map(|class| class.ln_evidence).collect::<Vec<_>>()))
     }
 
     fn maximum(

@@ -3,6 +3,7 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::dense::cholesky;
+use super::ln_sum;
 use super::posterior::{GaussNewton, Model, Solution, cost};
 
 /// At a mode, predicts how much more probable the data become if the model has one more degree of freedom.
@@ -38,6 +39,16 @@ impl<'a> ScoreTest<'a> {
     #[must_use]
     pub fn ln_gain_by(&self, least: f64, change: &DVector<f64>) -> f64 {
         ln_gain(self.slope(change), self.bend(change), least)
+    }
+
+    /// Logarithm of the factor by which the data become more probable if the model makes one of these
+    /// `changes`, given with their probabilities, and its unknowns adapt.
+    #[must_use]
+    pub fn ln_gain_among(&self, changes: &[(f64, DVector<f64>)]) -> f64 {
+        let ln_weight = |(probability, change): &(f64, DVector<f64>)| {
+            probability.ln() + self.slope(change) - 0.5 * self.bend(change)
+        };
+        ln_sum(&changes.iter().map(ln_weight).collect::<Vec<_>>())
     }
 
     fn slope(&self, change: &DVector<f64>) -> f64 {

@@ -5,10 +5,12 @@ pub mod dense;
 mod dot;
 mod eigen;
 pub mod forecast;
+mod ln_sum;
 pub mod posterior;
 
 pub use dot::dot;
 pub use eigen::Eigen;
+pub use ln_sum::ln_sum;
 
 /// Why a solver stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -40,11 +40,11 @@ fn facets_of_a_sheet_that_fluoresces_have_their_derivatives() {
         for emission in &scene.emissions()[1..4] {
             let data = plain.emitting(emission).unwrap();
             // all but the fall, which moves logits
-            let w = [0.2, -0.4, 0.3, 0.0];
+            let (w, moved_unknowns) = ([0.2, -0.4, 0.3, 0.0, -0.6], [0, 1, 2, 4]);
             let at = data.linearise(&reflectance, &w);
             let multipliers = DVector::from_fn(at.residuals.len(), |n, _| (n as f64 + 0.5).cos());
             let bend = data.curvature(&at.second, &multipliers);
-            for k in 0..grid.len() + 3 {
+            for k in (0..grid.len()).chain(moved_unknowns.map(|unknown| grid.len() + unknown)) {
                 let moved = |by: f64| {
                     let (mut r, mut w) = (reflectance.clone(), w);
                     match k.checked_sub(grid.len()) {
@@ -61,7 +61,7 @@ fn facets_of_a_sheet_that_fluoresces_have_their_derivatives() {
                     assert!(off < 1e-5 * (1.0 + slope.norm()), "{k}: {off} of {}", slope.norm());
                     let by = (above.jacobian.tr_mul(&multipliers) - below.jacobian.tr_mul(&multipliers))
                         / (2.0 * STEP);
-                    for unknown in 0..3 {
+                    for unknown in moved_unknowns {
                         let own = match k.checked_sub(grid.len()) {
                             None => bend.mixed[(k, unknown)],
                             Some(k) => bend.unknowns[(k, unknown)],

@@ -25,6 +25,7 @@ use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::Normal;
 use crate::estimate::verdict::{Doubt, EXPLAINED};
 use crate::forward::FacetValues;
+use crate::solve::ln_sum;
 use crate::solve::posterior::{Model, Solution, find_mode, first_tempering};
 
 /// Relative error of a reflectance from a bench instrument: instruments of one model agree to 0.4 ΔE*94 on
@@ -218,8 +219,8 @@ fn least_rms<'a>(all: impl Iterator<Item = &'a InLight>) -> f64 {
 fn probable(mut lights: Vec<Candidate>) -> Vec<Candidate> {
     let most = lights.iter().map(|light| light.ln_share).fold(f64::NEG_INFINITY, f64::max);
     lights.retain(|light| light.ln_share >= most + LN_HOPELESS);
-    let ln_sum = most + lights.iter().map(|light| (light.ln_share - most).exp()).sum::<f64>().ln();
-    lights.iter_mut().for_each(|light| light.ln_share -= ln_sum);
+    let ln_all = ln_sum(&lights.iter().map(|light| light.ln_share).collect::<Vec<_>>());
+    lights.iter_mut().for_each(|light| light.ln_share -= ln_all);
     lights
 }
 

@@ -64,7 +64,7 @@ pub fn rival_in_photograph(
     others: &Others,
     prior: &Prior,
 ) -> Option<Rival> {
-    let Modes { photographs, of_days } = modes;
+    let Modes { photographs, of_days, ln_by_emission } = modes;
     let days = day.map_or_else(|| Day::ALL.to_vec(), |day| vec![day]);
     let under_sky = Lit { name: String::new(), with_sky: parts.clone(), without_sky: Vec::new(), days };
     let mut starts = Starts::default();
@@ -76,7 +76,7 @@ pub fn rival_in_photograph(
     let of_sky = (photographs, &best_under_sky.tried.solution.w);
     let hypothesis = Hypothesis::on_dull_day(Day::Clear, SheetModel::Family);
     starts.keep(&photographs.in_light_of(&lamp).carried(of_sky, hypothesis, prior)?);
-    let mut least = best_under_sky.tried.ln_weight() + LN_AHEAD;
+    let mut least = best_under_sky.tried.ln_weight() + ln_by_emission + LN_AHEAD;
     let mut if_ahead = |lit: Lit| {
         let best = lit.best(photographs, prior, (&mut starts, least))?;
         (best.tried.ln_weight() > least).then_some((lit, best))
@@ -96,14 +96,14 @@ pub fn rival_in_photograph(
     // without a sky, the stated light may be ahead of these
     let stated = Lit { days: under_sky.days.clone(), ..Lit::of(String::new(), parts.clone(), others) };
     let best_of_stated = stated.best(photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
-    least = best_of_stated.tried.ln_weight() + LN_AHEAD;
+    least = best_of_stated.tried.ln_weight() + ln_by_emission + LN_AHEAD;
     ahead.retain(|(_, best)| best.tried.ln_weight() > least);
     let by_classes = |lit: &Lit, Best { scenario, tried }: &Best| {
         let (parts, ..) = *lit.scenarios().get(*scenario)?;
         Search::new(&photographs.in_light_of(parts), prior).ln_evidence_by_classes(tried)
     };
     let of_lights = ahead.iter().filter_map(|(lit, best)| Some((lit.name.clone(), by_classes(lit, best)?)));
-    Rival::of(of_lights, by_classes(&stated, &best_of_stated)?, LN_ODDS)
+    Rival::of(of_lights, by_classes(&stated, &best_of_stated)? + ln_by_emission, LN_ODDS)
 }
 
 impl Lit {

@@ -13,7 +13,7 @@ use super::parts::Parts;
 use super::sheet_models::SheetModel;
 use super::whitened::Photograph;
 use crate::error::{Error, Result};
-use crate::estimate::emission::Origin;
+use crate::estimate::emission::{Origin, SIZES};
 use crate::estimate::family::Family;
 use crate::estimate::fluorescence::Fluorescence;
 use crate::estimate::fluorescence_search::{self, is_hopeful};
@@ -22,6 +22,7 @@ use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
+use crate::solve::ln_sum;
 use crate::solve::posterior::{Iteration, Model};
 
 /// Log evidence relative to the best above which folds count, and above which ideal folds are weighed again
@@ -52,6 +53,9 @@ pub struct Modes<'a> {
     pub photographs: Photographs<'a>,
     /// The mode on each kind of day that was tried.
     pub of_days: Vec<(Day, DVector<f64>)>,
+    /// Logarithm of how many times as probable the facets of a usual photograph are if the sheet may emit
+    /// light: other lights and cameras, in which it is assumed not to, must be ahead by more.
+    pub ln_by_emission: f64,
 }
 
 /// The estimate from photographs of one sheet, one or more.
@@ -88,8 +92,11 @@ fn under<'a>(
     let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
     let stated = &family.0.first()?.parts.stated;
     let mut sorted = sorted(&mut search, stated, (all, start), &dull_days(&family.0));
+    let mut ln_by_emission = 0.0;
     if let [only] = family.0.as_slice() {
-        add_emitting(&mut search, (&family, only), &mut sorted);
+        ln_by_emission = add_emitting(&mut search, (&family, only), false, &mut sorted).unwrap_or(0.0);
+        add_emitting(&mut search, (&family, only), true, &mut sorted);
+        sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
     }
     let is_of_family = |one: &Hypothesis| {
         let Hypothesis { day, emission, .. } = *one;
@@ -112,7 +119,8 @@ fn under<'a>(
     };
     let estimates = family.0.iter().zip(seen).map(of).collect();
     let ln_evidence = found.ln_evidence;
-    Some(SheetEstimate { photographs: estimates, ln_evidence, modes: Modes { photographs: family, of_days } })
+    let modes = Modes { photographs: family, of_days, ln_by_emission };
+    Some(SheetEstimate { photographs: estimates, ln_evidence, modes })
 }
 
 /// Photographs with errors relative to predicted values rather than to measured ones, and the point of the
@@ -216,18 +224,21 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     }
 }
 
-/// Adds to the real fold of most evidence the same fold of a brightened sheet and, where the exposure is
-/// known and cannot take that up, of a thin one, as far as the score test leaves them hope. The other folds
-/// are then of sheets that emit nothing. Not tried are ideal folds, as the rounding of a JPEG looks like
-/// emission, and dyes excited by visible light, as departures of real sheets from all known kinds look like
-/// them.
+/// Adds to the fold of most evidence, among ideal or among real ones, the same fold of a sheet that
+/// fluoresces and, where the exposure is known and cannot take that up, of a thin one, as far as the score
+/// test leaves them hope. Its like are then of sheets that emit nothing. In ideal folds only dyes are tried,
+/// as the rounding of a JPEG looks like a faint brightener. Returns the logarithm of how many times as
+/// probable emission makes the facets; `None` if such folds are ruled out by the evidence.
 fn add_emitting(
     search: &mut Search<Photographs>,
     (family, photograph): (&Photographs, &Photograph),
+    is_ideal: bool,
     all: &mut Vec<Tried>,
-) -> Option<()> {
-    let is_asked = |one: &&Tried| one.hypothesis.has_bounces() && !one.hypothesis.imperfection.is_ideal();
-    let best = all.iter().find(is_asked)?;
+) -> Option<f64> {
+    let is_alike =
+        |one: &Tried| one.hypothesis.has_bounces() && one.hypothesis.imperfection.is_ideal() == is_ideal;
+    let least = all.first()?.ln_weight() + LN_EVIDENCE_NEAR;
+    let best = all.iter().find(|one| is_alike(one)).filter(|one| one.ln_weight() >= least)?;
     let (of_best, w, ln_best, ln_share) =
         (best.hypothesis, best.solution.w.clone(), best.ln_weight(), best.ln_share);
     let test = search.score_test(best)?;
@@ -235,30 +246,39 @@ fn add_emitting(
     let broad = search.broad();
     let logit = broad.logit_at(&w.rows(0, broad.basis().ncols()).into_owned());
     let is_exposure_known = photograph.parts.stated.exposure.is_some();
-    let mut found = Vec::new();
+    let (mut found, mut ln_gains) = (Vec::new(), vec![0.0]);
     for (place, emission) in photograph.emissions().iter().enumerate() {
-        match emission.origin() {
-            Some(Origin::Ultraviolet) => {}
-            Some(Origin::Behind) if is_exposure_known => {}
-            Some(Origin::Behind | Origin::Visible) | None => continue,
+        let is_tried = match emission.origin() {
+            Some(Origin::Visible) => true,
+            Some(Origin::Ultraviolet) => !is_ideal,
+            Some(Origin::Behind) => !is_ideal && is_exposure_known,
+            None => false,
+        };
+        if !is_tried {
+            continue;
         }
         let hypothesis = Hypothesis { emission: Some(place), ..of_best };
         let model = family.model(hypothesis, search.broad())?;
         let start = w.clone().resize_vertically(model.unknowns(), 0.0);
-        let change = &residuals - model.residuals(&start);
+        let changes = SIZES.map(|(probability, number)| {
+            let mut at = start.clone();
+            at[w.len()] = number;
+            (probability, &residuals - model.residuals(&at))
+        });
         drop(model);
-        if is_hopeful(&test, &change, emission, &logit) {
-            found.extend(search.sort((hypothesis, ln_share), Some(start), ln_best + LN_EVIDENCE_HOPELESS));
+        if is_hopeful(&test, &changes, emission, &logit) {
+            let tried = search.sort((hypothesis, ln_share), Some(start), ln_best + LN_EVIDENCE_HOPELESS);
+            ln_gains.extend(tried.iter().map(|one| one.ln_weight() - ln_best + emission.ln_share(&logit)));
+            found.extend(tried);
         }
     }
     if found.is_empty() {
-        return None;
+        return Some(0.0);
     }
-    let folds = all.iter_mut().filter(|one| one.hypothesis.has_bounces());
-    folds.for_each(|one| one.hypothesis.emission = Some(0));
+    let alike = all.iter_mut().filter(|one| is_alike(one));
+    alike.for_each(|one| one.hypothesis.emission = Some(0));
     all.append(&mut found);
-    all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-    Some(())
+    Some(ln_sum(&ln_gains))
 }
 
 /// The emission of the sheet of a photograph, if it probably has any.
