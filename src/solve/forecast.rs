@@ -116,6 +116,10 @@ mod tests {
         assert!(test.ln_gain_along(&-&change).abs() < f64::MIN_POSITIVE);
         assert!((test.ln_gain_by(0.1, &change) - gain).abs() < 1e-12);
         assert!(test.ln_gain_by(1.0, &-&change) < 0.0);
+        // with the change, (2 − 2w, 1 − w) is left: ½(5(1 − w)² + w²) is least at w = 5/6
+        let by_change = before - 5.0 / 12.0;
+        let among = test.ln_gain_among(&[(0.25, change.clone()), (0.75, 0.0 * &change)]);
+        assert!((among - (0.25 * by_change.exp() + 0.75).ln()).abs() < 1e-12, "{among}");
         let foreseen = foreseen_cost(&Line, &DVector::from_element(1, -5.0), 1.0).unwrap();
         assert!((foreseen - found.cost(1.0)).abs() < 1e-9, "{foreseen}");
         let moved =
