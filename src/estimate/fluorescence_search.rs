@@ -20,8 +20,9 @@ const LN_EVIDENCE_HOPELESS: f64 = -12.0;
 /// Distance of the facets from a sheet without emission, in standard deviations beyond chance, above which
 /// the model linearised there does not predict other sheets.
 const SURPRISE: f64 = 5.0;
-/// Probability above which a sheet is reported to fluoresce.
-const PROBABLE: f64 = 0.5;
+/// Probability above which a sheet is reported to fluoresce, together with it: that of a brightener in a
+/// white sheet beforehand. Below it, the facets rather speak against one.
+const REPORTED: f64 = 0.35;
 
 /// True if a sheet with these logits may have a band, predicted from the changes of the residuals with each
 /// of its [sizes](Emission::sizes).
@@ -74,7 +75,7 @@ pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prio
     all
 }
 
-/// The emission inferred for a sheet; `None` if it probably has none.
+/// The emission inferred for a sheet; `None` if there is hardly a reason to expect any.
 ///
 /// # Arguments
 /// - `shares`: the cause of each alternative's emission, and its probability;
@@ -101,7 +102,7 @@ pub fn found(
         fluorescence if by_ultraviolet > by_light => (fluorescence, Origin::Ultraviolet),
         fluorescence => (fluorescence, Origin::Visible),
     };
-    if probability < PROBABLE {
+    if probability < REPORTED {
         return None;
     }
     let wavelengths_nm = nothing.wavelengths_nm();

@@ -64,7 +64,7 @@ pub struct EstimateRecord {
     #[schemars(inner(range(min = 0, max = 1)))]
     #[serde(alias = "total_reflectance")]
     pub bihemispherical_albedo: Option<Vec<f64>>,
-    /// Total radiance factor, one number per wavelength, of a sheet that probably fluoresces: what it
+    /// Total radiance factor, one number per wavelength, of a sheet that may well fluoresce: what it
     /// reflects and what it emits in the light of the scene, as an instrument with this light measures it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
@@ -73,10 +73,10 @@ pub struct EstimateRecord {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0)))]
     pub total_radiance_factor_sd: Option<Vec<f64>>,
-    /// The light that the sheet emits itself, if it probably fluoresces.
+    /// The light that the sheet emits itself, if it may well fluoresce.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluorescence: Option<FluorescenceRecord>,
-    /// Light from behind that comes through the sheet, if there probably is any.
+    /// Light from behind that comes through the sheet, if there may well be any.
     #[serde(default, skip_serializing_if = "Option::is_none", skip_deserializing)]
     light_through: Option<LightThroughRecord>,
     /// Quantities of the scene that were fitted together with the reflectance.
