@@ -94,8 +94,7 @@ fn under<'a>(
     let mut sorted = sorted(&mut search, stated, (all, start), &dull_days(&family.0));
     let mut ln_by_emission = 0.0;
     if let [only] = family.0.as_slice() {
-        ln_by_emission = add_emitting(&mut search, (&family, only), false, &mut sorted).unwrap_or(0.0);
-        add_emitting(&mut search, (&family, only), true, &mut sorted);
+        ln_by_emission = add_emitting(&mut search, (&family, only), &mut sorted).unwrap_or(0.0);
         sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
     }
     let is_of_family = |one: &Hypothesis| {
@@ -224,21 +223,19 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     }
 }
 
-/// Adds to the fold of most evidence, among ideal or among real ones, the same fold of a sheet that
-/// fluoresces and, where the exposure is known and cannot take that up, of a thin one, as far as the score
-/// test leaves them hope. Its like are then of sheets that emit nothing. In ideal folds only dyes are tried,
-/// as the rounding of a JPEG looks like a faint brightener. Returns the logarithm of how many times as
-/// probable emission makes the facets; `None` if such folds are ruled out by the evidence.
+/// Adds to the real fold of most evidence the same fold of a sheet that fluoresces and, where the exposure is
+/// known and cannot take that up, of a thin one, as far as the score test leaves them hope. Other real folds
+/// are then of sheets that emit nothing. Ideal folds are not tried: to their precision another light looks
+/// like a dye, and the rounding of a JPEG like a faint brightener. Returns the logarithm of how many times as
+/// probable emission makes the facets; `None` if real folds are ruled out by the evidence.
 fn add_emitting(
     search: &mut Search<Photographs>,
     (family, photograph): (&Photographs, &Photograph),
-    is_ideal: bool,
     all: &mut Vec<Tried>,
 ) -> Option<f64> {
-    let is_alike =
-        |one: &Tried| one.hypothesis.has_bounces() && one.hypothesis.imperfection.is_ideal() == is_ideal;
+    let is_real = |one: &Tried| one.hypothesis.has_bounces() && !one.hypothesis.imperfection.is_ideal();
     let least = all.first()?.ln_weight() + LN_EVIDENCE_NEAR;
-    let best = all.iter().find(|one| is_alike(one)).filter(|one| one.ln_weight() >= least)?;
+    let best = all.iter().find(|one| is_real(one)).filter(|one| one.ln_weight() >= least)?;
     let (of_best, w, ln_best, ln_share) =
         (best.hypothesis, best.solution.w.clone(), best.ln_weight(), best.ln_share);
     let test = search.score_test(best)?;
@@ -249,9 +246,8 @@ fn add_emitting(
     let (mut found, mut ln_gains) = (Vec::new(), vec![0.0]);
     for (place, emission) in photograph.emissions().iter().enumerate() {
         let is_tried = match emission.origin() {
-            Some(Origin::Visible) => true,
-            Some(Origin::Ultraviolet) => !is_ideal,
-            Some(Origin::Behind) => !is_ideal && is_exposure_known,
+            Some(Origin::Ultraviolet | Origin::Visible) => true,
+            Some(Origin::Behind) => is_exposure_known,
             None => false,
         };
         if !is_tried {
@@ -275,8 +271,8 @@ fn add_emitting(
     if found.is_empty() {
         return Some(0.0);
     }
-    let alike = all.iter_mut().filter(|one| is_alike(one));
-    alike.for_each(|one| one.hypothesis.emission = Some(0));
+    let real = all.iter_mut().filter(|one| is_real(one));
+    real.for_each(|one| one.hypothesis.emission = Some(0));
     all.append(&mut found);
     Some(ln_sum(&ln_gains))
 }
