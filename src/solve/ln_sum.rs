@@ -1,6 +1,6 @@
 //! Sums of numbers given by their logarithms.
 
-/// Logarithm of the sum of numbers with these logarithms, neither of which overflows; −∞ for none.
+/// Logarithm of the sum of numbers with these logarithms, computed without overflow; −∞ for none.
 ///
 /// # Example
 /// ```

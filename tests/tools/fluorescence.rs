@@ -157,28 +157,37 @@ fn what_says_nothing_of_a_matrix_is_refused_in_one_line() {
     }
 }
 
-/// A white sheet with a brightener, and the same without what fluoresces: emission about 440 nm, Gaussian in
-/// wavelengths.
-const WHITE: &str = "
-python3 - <<'END'
+/// A script that writes Donaldson matrices of two sheets: one that emits, and the same without what
+/// fluoresces. In Python, `reflected` is the reflectance at `nm`, `sent` what is emitted there of light of the
+/// wavelength `of`.
+fn matrices([emitting, plain]: [&str; 2], reflected: &str, sent: &str) -> String {
+    format!(
+        "python3 - <<'END'
 from math import exp
-for name, strength in ('brightened', 1), ('white', 0):
-    with open(f'{name}.csv', 'w') as file:
+for name, strength in ('{emitting}', 1), ('{plain}', 0):
+    with open(f'{{name}}.csv', 'w') as file:
         excitation = range(300, 710, 10)
         file.write('emission_nm,' + ','.join(map(str, excitation)) + '\\n')
         for nm in range(380, 710, 10):
             def factor(of):
-                if of == nm:
-                    return 0.86 - 0.65 / (1 + exp((nm - 402) / 8))
-                is_sent = nm - of > 10
-                return strength * is_sent * 0.06 * exp(-(((nm - 440) / 22) ** 2 + ((of - 365) / 28) ** 2) / 2)
-            file.write(f'{nm},' + ','.join(repr(factor(of)) for of in excitation) + '\\n')
+                return {reflected} if of == nm else strength * (nm - of > 10) * {sent}
+            file.write(f'{{nm}},' + ','.join(repr(factor(of)) for of in excitation) + '\\n')
 END
-for sheet in brightened white; do
+"
+    )
+}
+
+/// Facets of a white sheet with a brightener, and of the same without: emission about 440 nm, Gaussian in
+/// wavelengths.
+fn white() -> String {
+    let sent = "0.06 * exp(-(((nm - 440) / 22) ** 2 + ((of - 365) / 28) ** 2) / 2)";
+    matrices(["brightened", "white"], "0.86 - 0.65 / (1 + exp((nm - 402) / 8))", sent)
+        + "for sheet in brightened white; do
     vkernel --angle-deg 45 | vforward -q --donaldson $sheet.csv --illuminant D65 --wavelengths-nm 400:700:5 \
         --camera canon-5d-mark-ii --noise-sd 1e-3 >$sheet.ndjson
 done
-";
+"
+}
 
 /// The record of a sheet, and its verdict.
 fn estimated(folder: &Workdir, sheet: &str, flags: &str) -> Value {
@@ -203,7 +212,7 @@ fn rmse(estimate: &Value, field: &str, truth: &[f64]) -> f64 {
 #[test]
 fn a_brightener_is_told_from_what_is_reflected() {
     let folder = Workdir::new();
-    let run = folder.sh(WHITE);
+    let run = folder.sh(&white());
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     for exposure in ["--exposure 1", "--exposure free"] {
         let record = estimated(&folder, "brightened.ndjson", exposure);
@@ -252,22 +261,10 @@ fn what_visible_light_excites_is_named_and_never_good() {
 
 /// Photographs of a yellow cloth whose dye violet and blue light excites, and of the same cloth without the
 /// dye: with the sun two and three degrees to the side, unlike what is stated.
-const DYED: &str = "
-python3 - <<'END'
-from math import exp
-for name, strength in ('dyed', 1), ('undyed', 0):
-    with open(f'{name}.csv', 'w') as file:
-        excitation = range(300, 710, 10)
-        file.write('emission_nm,' + ','.join(map(str, excitation)) + '\\n')
-        for nm in range(380, 710, 10):
-            def factor(of):
-                if of == nm:
-                    return 0.05 + 0.7 / (1 + exp((490 - nm) / 8))
-                is_sent = nm - of > 10
-                return strength * is_sent * 0.07 * exp(-(((nm - 520) / 20) ** 2 + ((of - 450) / 30) ** 2) / 2)
-            file.write(f'{nm},' + ','.join(repr(factor(of)) for of in excitation) + '\\n')
-END
-vkernel --angle-deg 50 >stated.json
+fn dyed() -> String {
+    let sent = "0.07 * exp(-(((nm - 520) / 20) ** 2 + ((of - 450) / 30) ** 2) / 2)";
+    matrices(["dyed", "undyed"], "0.05 + 0.7 / (1 + exp((490 - nm) / 8))", sent)
+        + "vkernel --angle-deg 50 >stated.json
 for tilt in 2 3; do
     vkernel --angle-deg 50 --tilt-deg $tilt >scene.json
     for sheet in dyed undyed; do
@@ -278,12 +275,13 @@ for tilt in 2 3; do
             --transfer linear --illuminant D65 --camera canon-5d-mark-ii -q -o $sheet$tilt.ndjson
     done
 done
-";
+"
+}
 
 #[test]
 fn a_dye_in_a_photograph_is_named_and_its_light_told_from_what_is_reflected() {
     let folder = Workdir::new();
-    let run = folder.sh(DYED);
+    let run = folder.sh(&dyed());
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     let truth = fs::read_to_string(folder.path().join("dyed.truth")).unwrap();
     let truth: Value = serde_json::from_str(truth.lines().nth(1).unwrap()).unwrap();

@@ -224,7 +224,7 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
 }
 
 /// Adds to the real fold of most evidence the same fold of a sheet that fluoresces and, where the exposure is
-/// known and cannot take that up, of a thin one, as far as the score test leaves them hope. Other real folds
+/// known and cannot take that up, of a thin one, as far as the score test leaves them hope. The other folds
 /// are then of sheets that emit nothing. Ideal folds are not tried: to their precision another light looks
 /// like a dye, and the rounding of a JPEG like a faint brightener. Returns the logarithm of how many times as
 /// probable emission makes the facets; `None` if real folds are ruled out by the evidence.
@@ -233,9 +233,9 @@ fn add_emitting(
     (family, photograph): (&Photographs, &Photograph),
     all: &mut Vec<Tried>,
 ) -> Option<f64> {
-    let is_real = |one: &Tried| one.hypothesis.has_bounces() && !one.hypothesis.imperfection.is_ideal();
     let least = all.first()?.ln_weight() + LN_EVIDENCE_NEAR;
-    let best = all.iter().find(|one| is_real(one)).filter(|one| one.ln_weight() >= least)?;
+    let is_real = |one: &&Tried| one.hypothesis.has_bounces() && !one.hypothesis.imperfection.is_ideal();
+    let best = all.iter().find(is_real).filter(|one| one.ln_weight() >= least)?;
     let (of_best, w, ln_best, ln_share) =
         (best.hypothesis, best.solution.w.clone(), best.ln_weight(), best.ln_share);
     let test = search.score_test(best)?;
@@ -271,8 +271,8 @@ fn add_emitting(
     if found.is_empty() {
         return Some(0.0);
     }
-    let real = all.iter_mut().filter(|one| is_real(one));
-    real.for_each(|one| one.hypothesis.emission = Some(0));
+    let folds = all.iter_mut().filter(|one| one.hypothesis.has_bounces());
+    folds.for_each(|one| one.hypothesis.emission = Some(0));
     all.append(&mut found);
     Some(ln_sum(&ln_gains))
 }
