@@ -158,8 +158,8 @@ fn what_says_nothing_of_a_matrix_is_refused_in_one_line() {
 }
 
 /// A script that writes Donaldson matrices of two sheets: one that emits, and the same without what
-/// fluoresces. In Python, `reflected` is the reflectance at `nm`, `sent` what is emitted there of light of the
-/// wavelength `of`.
+/// fluoresces. In Python, `reflected` is the reflectance at `nm`, `sent` what is emitted there of light of
+/// the wavelength `of`.
 fn matrices([emitting, plain]: [&str; 2], reflected: &str, sent: &str) -> String {
     format!(
         "python3 - <<'END'
