@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 use vfold::geometry::StandardSky;
 use vfold::geometry::{FacetGrid, Fold};
-use vfold::kernel::bent::BentFold;
+use vfold::kernel::bent::{BentExchange, BentFold};
 use vfold::kernel::environment::{Environment, Surroundings, facet_radiances};
 
 const ANGLES_DEG: [f64; 3] = [40.0, 55.0, 70.0];
@@ -44,8 +44,8 @@ fn facets<const PARTS: usize>(
     elevation_deg: f64,
 ) -> [DVector<f64>; PARTS] {
     let light = Environment::new(parts, up(elevation_deg));
-    let bent = BentFold::ideal(fold.angle_deg());
-    let mut all = facet_radiances(&[light], (&bent, fold, Vector3::z()), &[ALBEDO]).unwrap();
+    let seen = BentExchange::new(&BentFold::ideal(fold.angle_deg()), fold, Vector3::z());
+    let mut all = facet_radiances(&[light], &seen, &[ALBEDO]).unwrap();
     all.remove(0).map(|radiance| DVector::from_iterator(radiance.len(), radiance.iter().copied()))
 }
 

@@ -5,14 +5,14 @@
 
 use std::ops::Range;
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, Vector2, Vector3};
 use ndarray::Array2;
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::error::Result;
 use crate::geometry::{Fold, StandardSky};
 
-use super::bent::{BentExchange, BentFold, Seen};
+use super::bent::{BentExchange, Seen, Symmetry};
 
 /// Directions in each half, spread evenly by a spiral, so that no edge that hides light runs along many of
 /// them (R. Swinbank, R. J. Purser, *Quarterly Journal of the Royal Meteorological Society* 132 (2006),
@@ -107,70 +107,94 @@ impl<const PARTS: usize> Environment<PARTS> {
     /// ```
     #[must_use]
     pub fn on_plane(&self, normal: Vector3<f64>) -> [f64; PARTS] {
-        Arch::new().dispatch(Gathered { light: self, place: Vector3::zeros(), normal, screens: &[] })
+        self.on_line(Vector2::zeros(), normal, &[0.0], &[])[0]
     }
 
-    /// Irradiance at a point of the fold, with light hidden by its panels, which are taken as flat.
-    fn on_sheet(&self, place: Vector3<f64>, normal: Vector3<f64>, panels: &[Screen; 2]) -> [f64; PARTS] {
-        Arch::new().dispatch(Gathered { light: self, place, normal, screens: panels })
+    /// Irradiance at points of a line along the crease, given by its coordinates across the crease and out of
+    /// the fold and by theirs along it, with light hidden by `screens`.
+    fn on_line(
+        &self,
+        line: Vector2<f64>,
+        normal: Vector3<f64>,
+        along: &[f64],
+        screens: &[Screen],
+    ) -> Vec<[f64; PARTS]> {
+        Arch::new().dispatch(Gathered { light: self, line, normal, along, screens })
     }
 }
 
-/// Irradiance at a point, computed with the widest vectors of the processor.
+/// Irradiance at points of a line, computed with the widest vectors of the processor.
 struct Gathered<'a, const PARTS: usize> {
     light: &'a Environment<PARTS>,
-    place: Vector3<f64>,
+    line: Vector2<f64>,
     normal: Vector3<f64>,
+    along: &'a [f64],
     screens: &'a [Screen],
 }
 
 impl<const PARTS: usize> WithSimd for Gathered<'_, PARTS> {
-    type Output = [f64; PARTS];
+    type Output = Vec<[f64; PARTS]>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> [f64; PARTS] {
-        let Self { light, place, normal, screens } = self;
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<[f64; PARTS]> {
+        let Self { light, line, normal, along, screens } = self;
         let rays = light.rays.each_ref().map(|coordinates| S::as_simd_f64s(coordinates).0);
         let zero = simd.splat_f64s(0.0);
-        let mut cosines = vec![zero; rays[0].len()];
+        let mut open = vec![zero; rays[0].len()];
         let normal = splat(simd, normal);
-        for (n, cosine) in cosines.iter_mut().enumerate() {
-            *cosine = simd.max_f64s(along(simd, normal, rays, n), zero);
+        for (n, cosine) in open.iter_mut().enumerate() {
+            *cosine = simd.max_f64s(projected(simd, normal, rays, n), zero);
         }
+        // Of each screen in front of the line: its half width, the height of the line above it, and for each
+        // ray that meets its plane within its depth the cosine of approach, by which lengths are multiplied
+        // to avoid a division.
+        let mut met = Vec::with_capacity(screens.len());
         for Screen { facing, out, depth, half_width } in screens {
+            let place = Vector3::new(line.x, 0.0, line.y);
             let height = facing.dot(&place);
             if height <= ON_PANEL {
                 continue;
             }
             let (towards, outwards) = (splat(simd, -facing), splat(simd, height * out));
-            let [from_crease, from_middle, height] =
-                [out.dot(&place), place.y, height].map(|value| simd.splat_f64s(value));
-            let [depth, half_width] = [*depth, *half_width].map(|value| simd.splat_f64s(value));
-            for (n, cosine) in cosines.iter_mut().enumerate() {
-                // Intersection with the panel's plane, multiplied by the cosine of approach to avoid a
-                // division.
-                let approach = along(simd, towards, rays, n);
-                let met_out = simd.mul_add_f64s(from_crease, approach, along(simd, outwards, rays, n));
-                let met_along = simd.mul_add_f64s(from_middle, approach, simd.mul_f64s(height, rays[1][n]));
+            let [from_crease, depth] = [out.dot(&place), *depth].map(|value| simd.splat_f64s(value));
+            let mut approaches = vec![zero; rays[0].len()];
+            for (n, met) in approaches.iter_mut().enumerate() {
+                let approach = projected(simd, towards, rays, n);
+                let met_out = simd.mul_add_f64s(from_crease, approach, projected(simd, outwards, rays, n));
                 let within_depth =
                     simd.min_f64s(met_out, simd.sub_f64s(simd.mul_f64s(depth, approach), met_out));
-                let within_width =
-                    simd.sub_f64s(simd.mul_f64s(half_width, approach), simd.abs_f64s(met_along));
-                let within = simd.min_f64s(approach, simd.min_f64s(within_depth, within_width));
-                *cosine = simd.select_f64s(simd.greater_than_f64s(within, zero), zero, *cosine);
+                let within = simd.min_f64s(approach, within_depth);
+                *met = simd.select_f64s(simd.greater_than_f64s(within, zero), approach, zero);
             }
+            met.push(([*half_width, height].map(|value| simd.splat_f64s(value)), approaches));
         }
         let lanes = DIRECTIONS / S::as_simd_f64s(&light.rays[0][..DIRECTIONS]).0.len();
-        let mut sums = [0.0; PARTS];
-        for (sum, (rays, irradiances)) in sums.iter_mut().zip(&light.irradiances) {
-            let of_part = &cosines[rays.start / lanes..rays.end / lanes];
-            let mut products = zero;
-            for (cosine, irradiance) in of_part.iter().zip(S::as_simd_f64s(irradiances).0) {
-                products = simd.mul_add_f64s(*cosine, *irradiance, products);
+        let mut cosines = vec![zero; open.len()];
+        let mut all = Vec::with_capacity(along.len());
+        // no closure: it would not be compiled for wide vectors
+        for place in along {
+            let place = simd.splat_f64s(*place);
+            for (n, (cosine, open)) in cosines.iter_mut().zip(&open).enumerate() {
+                *cosine = *open;
+                for ([half_width, height], approaches) in &met {
+                    let (approach, height) = (approaches[n], simd.mul_f64s(*height, rays[1][n]));
+                    let met_along = simd.abs_f64s(simd.mul_add_f64s(place, approach, height));
+                    let is_hidden = simd.less_than_f64s(met_along, simd.mul_f64s(*half_width, approach));
+                    *cosine = simd.select_f64s(is_hidden, zero, *cosine);
+                }
             }
-            *sum = simd.reduce_sum_f64s(products);
+            let mut sums = [0.0; PARTS];
+            for (sum, (rays, irradiances)) in sums.iter_mut().zip(&light.irradiances) {
+                let of_part = &cosines[rays.start / lanes..rays.end / lanes];
+                let mut products = zero;
+                for (cosine, irradiance) in of_part.iter().zip(S::as_simd_f64s(irradiances).0) {
+                    products = simd.mul_add_f64s(*cosine, *irradiance, products);
+                }
+                *sum = simd.reduce_sum_f64s(products);
+            }
+            all.push(sums);
         }
-        sums
+        all
     }
 }
 
@@ -182,41 +206,40 @@ fn splat<S: Simd>(simd: S, vector: Vector3<f64>) -> [S::f64s; 3] {
 
 /// Dot products of rays with a vector.
 #[inline(always)]
-fn along<S: Simd>(simd: S, [a, b, c]: [S::f64s; 3], [x, y, z]: [&[S::f64s]; 3], n: usize) -> S::f64s {
+fn projected<S: Simd>(simd: S, [a, b, c]: [S::f64s; 3], [x, y, z]: [&[S::f64s]; 3], n: usize) -> S::f64s {
     simd.mul_add_f64s(a, x[n], simd.mul_add_f64s(b, y[n], simd.mul_f64s(c, z[n])))
 }
 
-/// Radiance of the facets of a sheet bent like this in each of these lights, for each part, all bounces
-/// included; a perfect diffuser with irradiance 1 has radiance 1. Facets are those of `fold`, seen from far
-/// away in the direction `eye`.
+/// Radiance of the facets of a bent sheet in each of these lights, for each part, all bounces included; a
+/// perfect diffuser with irradiance 1 has radiance 1.
 ///
 /// # Returns
-/// For each light and part: facet by albedo, as [`BentFold::facet_radiance`].
+/// For each light and part: facet by albedo, as [`BentFold::facet_radiance`](super::bent::BentFold).
 ///
 /// # Errors
 /// [`crate::Error::Numeric`] if light does not leave the fold.
 pub fn facet_radiances<const PARTS: usize>(
     lights: &[Environment<PARTS>],
-    (bent, fold, eye): (&BentFold, &Fold, Vector3<f64>),
+    sheet: &BentExchange,
     albedos: &[f64],
 ) -> Result<Vec<[Array2<f64>; PARTS]>> {
+    let fold = sheet.fold();
     let (rows, cols) = (fold.facets().rows, fold.facets().cols);
     let half = cols.div_ceil(2);
-    let panels = &[0, 1].map(|panel| Screen::of(bent, fold, panel));
-    let exchanges = [1.0, -1.0].map(|image| (image, BentExchange::of_light(bent, fold, eye, image)));
+    let screens = &[0, 1].map(|panel| Screen::of(sheet.angle_deg(), fold, panel));
+    let middles: Vec<f64> =
+        (0..cols).map(|col| ((col as f64 + 0.5) / cols as f64 - 0.5) * fold.width()).collect();
     let direct = |light: &Environment<PARTS>| {
         let mut radiances: [Array2<f64>; PARTS] =
             std::array::from_fn(|_| Array2::zeros((2 * rows * cols, albedos.len())));
-        for (row, seen) in exchanges[0].1.rows().iter().enumerate() {
-            for col in 0..cols {
-                let y = ((col as f64 + 0.5) / cols as f64 - 0.5) * fold.width();
-                for Seen { share, place, normal } in seen {
-                    let (place, normal) =
-                        (Vector3::new(place.x, y, place.y), Vector3::new(normal.x, 0.0, normal.y));
-                    let direct = light.on_sheet(place, normal, panels);
+        for (row, seen) in sheet.rows().iter().enumerate() {
+            for Seen { share, place, normal } in seen {
+                let normal = Vector3::new(normal.x, 0.0, normal.y);
+                let direct = light.on_line(*place, normal, &middles, screens);
+                for (facet, direct) in (row * cols..).zip(direct) {
                     for (radiance, direct) in radiances.iter_mut().zip(direct) {
                         for (node, albedo) in albedos.iter().enumerate() {
-                            radiance[(row * cols + col, node)] += share * albedo * direct;
+                            radiance[(facet, node)] += share * albedo * direct;
                         }
                     }
                 }
@@ -225,24 +248,31 @@ pub fn facet_radiances<const PARTS: usize>(
         radiances
     };
     let mut radiances: Vec<[Array2<f64>; PARTS]> = lights.iter().map(direct).collect();
-    // both exchanges have the same patches
-    let on_patch = |[place, normal]: [Vector3<f64>; 2]| {
-        let mirrored = Vector3::new(place.x, -place.y, place.z);
-        lights.iter().flat_map(move |light| {
-            let [own, other] = [place, mirrored].map(|place| light.on_sheet(place, normal, panels));
-            (0..PARTS).map(move |part| [own[part], other[part]])
-        })
-    };
-    let on_patches: Vec<[f64; 2]> = exchanges[0].1.places(fold.width()).flat_map(on_patch).collect();
-    for (image, exchange) in &exchanges {
-        let halves = on_patches.iter().map(|[own, other]| 0.5 * (own + image * other));
-        let patches = DMatrix::from_row_iterator(exchange.patches(), lights.len() * PARTS, halves);
+    // of each patch: on itself and on its mirror image, by light and part
+    let columns = sheet.columns();
+    let along: Vec<f64> = columns.iter().copied().chain(columns.iter().map(|y| -y)).collect();
+    let mut on_patches = [0, 1].map(|_| DMatrix::zeros(sheet.patches(), lights.len() * PARTS));
+    for (line, [middle, normal]) in sheet.middles().enumerate() {
+        let normal = Vector3::new(normal.x, 0.0, normal.y);
+        for (n, light) in lights.iter().enumerate() {
+            let lit = light.on_line(middle, normal, &along, screens);
+            for (place, parts) in lit.into_iter().enumerate() {
+                let patch = line * columns.len() + place % columns.len();
+                for (part, lit) in parts.into_iter().enumerate() {
+                    on_patches[place / columns.len()][(patch, n * PARTS + part)] = lit;
+                }
+            }
+        }
+    }
+    let [own, mirrored] = on_patches;
+    for symmetry in Symmetry::BOTH {
+        let irradiances = 0.5 * (&own + symmetry.sign() * &mirrored);
         for (node, albedo) in albedos.iter().enumerate() {
-            let bounced = exchange.bounced(&patches, *albedo)?;
+            let bounced = sheet.bounced(symmetry, &irradiances, *albedo)?;
             for (radiance, bounced) in radiances.iter_mut().flatten().zip(bounced.column_iter()) {
                 for (n, row) in (0..2 * rows).flat_map(|row| (0..cols).map(move |col| (col, row))) {
                     let mirror = cols - 1 - n;
-                    let sign = if n <= mirror { 1.0 } else { *image };
+                    let sign = if n <= mirror { 1.0 } else { symmetry.sign() };
                     radiance[(row * cols + n, node)] += albedo * sign * bounced[row * half + n.min(mirror)];
                 }
             }
@@ -263,8 +293,8 @@ struct Screen {
 const ON_PANEL: f64 = 1e-9;
 
 impl Screen {
-    fn of(bent: &BentFold, fold: &Fold, panel: usize) -> Self {
-        let (sin, cos) = (0.5 * bent.angle_deg.to_radians()).sin_cos();
+    fn of(angle_deg: f64, fold: &Fold, panel: usize) -> Self {
+        let (sin, cos) = (0.5 * angle_deg.to_radians()).sin_cos();
         let side = if panel == 0 { -1.0 } else { 1.0 };
         Self {
             out: Vector3::new(side * sin, 0.0, cos),
@@ -281,6 +311,7 @@ mod tests {
 
     use super::*;
     use crate::geometry::FacetGrid;
+    use crate::kernel::bent::BentFold;
 
     /// A white sheet in uniform surroundings is as bright as they are, however it is bent.
     #[test]
@@ -295,8 +326,8 @@ mod tests {
             BentFold { bow_deg: [3.0; 2], ..ideal },
             BentFold { bow_deg: [-3.0; 2], ..ideal },
         ] {
-            let seen = (&bent, &fold, Vector3::z());
-            let [[sky, ground]] = &facet_radiances(slice::from_ref(&even), seen, &[0.9999]).unwrap()[..]
+            let seen = BentExchange::new(&bent, &fold, Vector3::z());
+            let [[sky, ground]] = &facet_radiances(slice::from_ref(&even), &seen, &[0.9999]).unwrap()[..]
             else {
                 panic!("one light has one radiance of each part")
             };

@@ -2,6 +2,7 @@
 //! corners, and all effects of real sheets and light.
 
 mod ambient;
+mod bends;
 mod bins;
 pub(super) mod eye;
 mod framing;
@@ -9,19 +10,19 @@ mod sheets;
 
 use std::sync::Arc;
 
+use bends::{BOWS_DEG, Bends, Bent};
 use bins::Bins;
 use framing::Pose;
 use nalgebra::{Vector2, Vector3};
 use ndarray::Array2;
 
-use self::ambient::CREASE_RADII;
 use super::{FoldSetting, StatedSky, metered};
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
 use crate::estimate::photograph::conditions::{Daylight, SkyKind};
 use crate::estimate::photograph::day::Day;
-use crate::estimate::photograph::parts::{Change, Parts, Radiance, Sunlit};
+use crate::estimate::photograph::parts::{Change, Parts, Radiance, Sunlit, Surroundings};
 use crate::estimate::photograph::priors::Priors;
 use crate::estimate::photograph::{StatedScene, Unmodelled};
 use crate::estimate::unknowns::Normal;
@@ -32,10 +33,9 @@ use crate::response::ModeLight;
 use crate::stream::Sample;
 
 /// Sizes at which changes of the fold are tabulated: additional degrees between the panels, as large as
-/// plausible errors, but at most a share of the angle; degrees of bow.
+/// plausible errors, but at most a share of the angle.
 const ANGLES_DEG: [f64; 4] = [-6.0, -2.0, 2.0, 6.0];
 const ANGLE_MOST: f64 = 0.3;
-const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
 /// Panel depth divided by the distance of a lamp.
 const NEARNESSES: [f64; 2] = [0.08, 0.25];
 
@@ -174,31 +174,48 @@ impl<'a> PhotographedFold<'a> {
             day: Day::Clear,
             shown: None,
         };
-        let lit = self.sunlit(&bins, sun, pose.eye.normalize())?;
-        let even = self.exact(ModeLight::Sky(1.0));
-        let zenith = sky.filter(StatedSky::is_zenith_stated).map(|sky| sky.zenith);
-        let surroundings = ambient::of(fold, (&pose, sun, zenith), (&self.nodes, &even), &bins)?;
-        let sheets = sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref())?;
+        let sheets = || sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref());
+        let (light, sheets) = rayon::join(|| self.light(&pose, &bins), sheets);
+        let (even_sky, lit, surroundings) = light?;
         Ok(Ok(Parts {
             stated,
             places: bins.places().to_vec(),
             sd: bins.sd().clone(),
             values: values.clone(),
             sun: Arc::new(lit),
-            even_sky: bins.pool(&even),
+            even_sky,
             surroundings: Arc::new(surroundings),
-            sheets: Arc::new(sheets),
+            sheets: Arc::new(sheets?),
             eye,
         }))
     }
 
-    fn sunlit(&self, bins: &Bins, sun: Vector3<f64>, view: Vector3<f64>) -> Result<Sunlit> {
+    /// Uniform light, sunlight, and light of the surroundings.
+    fn light(&self, pose: &Pose, bins: &Bins) -> Result<(Radiance, Sunlit, Surroundings)> {
+        let FoldSetting { fold, light, sky, .. } = self.setting;
+        let (sun, view) = (light.towards(), pose.eye.normalize());
+        let bends = Bends::of(fold, view);
+        let lit = self.sunlit(bins, &bends, [sun, view])?;
+        let even = self.exact(ModeLight::Sky(1.0));
+        let zenith = sky.filter(StatedSky::is_zenith_stated).map(|sky| sky.zenith);
+        let surroundings = ambient::of(fold, (pose, sun, zenith), (&self.nodes, &even), (&bends, bins))?;
+        Ok((bins.pool(&even), lit, surroundings))
+    }
+
+    fn sunlit(&self, bins: &Bins, bends: &Bends, [sun, view]: [Vector3<f64>; 2]) -> Result<Sunlit> {
         let FoldSetting { fold, light, .. } = self.setting;
         let [even, odd] = light.even_and_odd(fold);
         let angle_deg = fold.angle_deg();
-        let ideal = self.bent(BentFold::ideal(angle_deg), sun, view)?;
+        let ideal = bends.ideal.facet_radiance(sun, &self.nodes)?;
+        let effect = |bent: &BentExchange| -> Result<Radiance> {
+            Ok(bins.pool(&(bent.facet_radiance(sun, &self.nodes)? - &ideal)))
+        };
+        let of_known = |all: &[Bent]| -> Result<Change> {
+            let of = |(size, bent): &Bent| Ok((*size, effect(bent)?));
+            Ok(Change { known: all.iter().map(of).collect::<Result<_>>()? })
+        };
         let change = |sizes: &[f64], bend: &dyn Fn(f64) -> BentFold| -> Result<Change> {
-            let of = |size: &f64| Ok((*size, bins.pool(&(self.bent(bend(*size), sun, view)? - &ideal))));
+            let of = |size: &f64| Ok((*size, effect(&BentExchange::new(&bend(*size), fold, view))?));
             Ok(Change { known: sizes.iter().map(of).collect::<Result<_>>()? })
         };
         let flat = BentFold::ideal(angle_deg);
@@ -209,10 +226,10 @@ impl<'a> PhotographedFold<'a> {
             angle_deg: change(&ANGLES_DEG.map(|size| part * size), &|more| {
                 BentFold::ideal(angle_deg + more)
             })?,
-            crease_radius: change(&CREASE_RADII, &|crease_radius| BentFold { crease_radius, ..flat })?,
-            bow_deg: change(&BOWS_DEG, &|bow| BentFold { bow_deg: [bow, bow], ..flat })?,
-            nearness: Change { known: self.near(bins, sun, view, &ideal)? },
+            crease_radius: of_known(&bends.rounded)?,
+            bow_deg: of_known(&bends.bowed)?,
             bow_difference_deg: change(&BOWS_DEG, &|bow| BentFold { bow_deg: [bow, -bow], ..flat })?,
+            nearness: Change { known: self.near(bins, &bends.ideal, sun, &ideal)? },
         })
     }
 
@@ -220,12 +237,11 @@ impl<'a> PhotographedFold<'a> {
     fn near(
         &self,
         bins: &Bins,
+        exchange: &BentExchange,
         sun: Vector3<f64>,
-        view: Vector3<f64>,
         ideal: &Array2<f64>,
     ) -> Result<Vec<(f64, Radiance)>> {
         let fold = &self.setting.fold;
-        let exchange = BentExchange::new(&BentFold::ideal(fold.angle_deg()), fold, view);
         let [depth, _] = fold.depths();
         let middle = Vector2::new(0.0, 0.5 * depth * (0.5 * fold.angle_rad()).cos());
         let of = |nearness: f64| {
@@ -233,10 +249,6 @@ impl<'a> PhotographedFold<'a> {
             Ok((nearness, bins.pool(&(lit - ideal))))
         };
         NEARNESSES.into_iter().map(of).collect()
-    }
-
-    fn bent(&self, bent: BentFold, sun: Vector3<f64>, view: Vector3<f64>) -> Result<Array2<f64>> {
-        BentExchange::new(&bent, &self.setting.fold, view).facet_radiance(sun, &self.nodes)
     }
 
     /// Exact radiance of the ideal fold: facet by node.

@@ -209,8 +209,8 @@ fn sky_and_ground_are_as_photographed() {
     let fold = fold(48.0);
     let by = |part: Surroundings, spectrum: &[f64]| {
         let light = Environment::new([part], up);
-        let seen = (&BentFold::ideal(48.0), &fold, Vector3::z());
-        let [radiance] = &facet_radiances(&[light], seen, &reflectance).unwrap()[0];
+        let seen = BentExchange::new(&BentFold::ideal(48.0), &fold, Vector3::z());
+        let [radiance] = &facet_radiances(&[light], &seen, &reflectance).unwrap()[0];
         radiance.dot(&weights(&sidecar, spectrum).t())
     };
     let by_ground = by(Surroundings::Ground, &lit_ground);

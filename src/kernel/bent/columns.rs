@@ -1,5 +1,6 @@
 //! Columns along the crease: what a point sees of the columns of a strip, with mirror images combined.
 
+use super::Symmetry;
 use super::view::SeenStrip;
 
 /// Distances that differ by less than this fraction of the width count as equal.
@@ -13,14 +14,11 @@ pub struct Columns {
     edges: Vec<Vec<(usize, f64)>>,
     /// Number of columns in one half, including the middle one.
     half: usize,
-    /// Light of a column's mirror image relative to its own.
-    image: f64,
 }
 
 impl Columns {
-    /// `count` columns of equal width on `[-width/2, width/2]` seen from `places`, in light whose mirror
-    /// image about the middle is `image` times itself.
-    pub fn seen_from(places: &[f64], count: usize, width: f64, image: f64) -> Self {
+    /// `count` columns of equal width on `[-width/2, width/2]` seen from `places`.
+    pub fn seen_from(places: &[f64], count: usize, width: f64) -> Self {
         let mut distances: Vec<f64> = Vec::new();
         let mut number = |offset: f64| {
             let known = distances.iter().position(|distance| (distance - offset.abs()).abs() < SAME * width);
@@ -35,18 +33,21 @@ impl Columns {
         for place in places {
             edges.push((0..=count).map(|n| number(edge(n) - place)).collect());
         }
-        Self { distances, edges, half: count.div_ceil(2), image }
+        Self { distances, edges, half: count.div_ceil(2) }
     }
 
-    /// Adds `weight` times the shares of each point's light that land on the columns of `strip`: point by
-    /// column of one half.
-    pub fn add_shares(&self, strip: &SeenStrip, weight: f64, shares: &mut [f64]) {
+    /// Adds `weight` times the shares of each point's light that land on the columns of `strip`: for light of
+    /// each [`Symmetry`], point by column of one half.
+    pub fn add_shares(&self, strip: &SeenStrip, weight: f64, shares: &mut [Vec<f64>; 2]) {
         let up_to: Vec<f64> = self.distances.iter().map(|y| weight * strip.up_to(*y)).collect();
-        for (edges, shares) in self.edges.iter().zip(shares.chunks_exact_mut(self.half)) {
+        for (point, edges) in self.edges.iter().enumerate() {
             let last = edges.len() - 2;
             for (n, pair) in edges.windows(2).enumerate() {
                 let [from, to] = [pair[0], pair[1]].map(|(number, side)| side * up_to[number]);
-                shares[n.min(last - n)] += if n <= last - n { to - from } else { self.image * (to - from) };
+                let (place, is_mirrored) = (point * self.half + n.min(last - n), n > last - n);
+                for (shares, symmetry) in shares.iter_mut().zip(Symmetry::BOTH) {
+                    shares[place] += if is_mirrored { symmetry.sign() * (to - from) } else { to - from };
+                }
             }
         }
     }

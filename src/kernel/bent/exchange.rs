@@ -7,11 +7,11 @@ use crate::error::{Error, Result};
 use crate::geometry::Fold;
 use crate::kernel::quadrature::Rule;
 
-use super::BentFold;
 use super::columns::Columns;
 use super::section::{self, Strip};
 use super::seen::{self, Sample};
 use super::view::SeenStrip;
+use super::{BentFold, Symmetry};
 
 /// Number of columns of a strip.
 const COLUMNS: usize = 5;
@@ -34,17 +34,20 @@ pub(crate) struct Seen {
 
 /// Form factors among the parts of a bent sheet and to its facets, independent of light and albedo.
 pub struct BentExchange {
+    /// Panels and facets, of which the angle is not used.
+    fold: Fold,
+    /// Angle between the panels' chords, degrees.
+    angle_deg: f64,
     strips: Vec<Strip>,
     /// Area of each patch (strip, then column of one half) together with its mirror image.
     areas: Vec<f64>,
-    /// Area times form factor, patch by patch: symmetric.
-    exchange: DMatrix<f64>,
-    /// Form factor from each facet of one half (panel, row, column) to each patch.
-    gather: DMatrix<f64>,
+    /// For light of each [`Symmetry`] area times form factor, patch by patch: symmetric.
+    exchange: [DMatrix<f64>; 2],
+    /// For light of each [`Symmetry`] the form factor from each facet of one half (panel, row, column) to
+    /// each patch.
+    gather: [DMatrix<f64>; 2],
     /// The points of the sheet visible in each row of facets of both panels.
     rows: Vec<Vec<Seen>>,
-    /// Number of columns of facets.
-    cols: usize,
 }
 
 impl BentExchange {
@@ -56,12 +59,6 @@ impl BentExchange {
     /// [`Fold::panels`].
     #[must_use]
     pub fn new(bent: &BentFold, fold: &Fold, eye: Vector3<f64>) -> Self {
-        Self::of_light(bent, fold, eye, 1.0)
-    }
-
-    /// The same for light whose mirror image about the plane that halves the crease is `image` (1 or -1)
-    /// times itself.
-    pub(crate) fn of_light(bent: &BentFold, fold: &Fold, eye: Vector3<f64>, image: f64) -> Self {
         let panels = section::strips(bent, fold);
         let view = Vector2::new(eye.x, eye.z);
         let edges = fold.spacing().edges(fold.facets().rows);
@@ -81,11 +78,12 @@ impl BentExchange {
                 .iter()
                 .flat_map(|strip| (0..HALF).map(|c| strip.depth() * column_width(c, fold)))
                 .collect(),
-            exchange: exchange(&strips, fold, image),
-            gather: gather(&strips, &numbered, fold, image),
+            exchange: exchange(&strips, fold),
+            gather: gather(&strips, &numbered, fold),
             rows,
-            cols: fold.facets().cols,
             strips,
+            fold: *fold,
+            angle_deg: bent.angle_deg,
         }
     }
 
@@ -134,30 +132,39 @@ impl BentExchange {
             .iter()
             .map(|row| row.iter().map(|seen| seen.share * lit(&seen.place, &seen.normal)).sum())
             .collect();
-        let half = self.cols.div_ceil(2);
-        let mut radiance = Array2::zeros((self.rows.len() * self.cols, albedos.len()));
+        let cols = self.fold.facets().cols;
+        let half = cols.div_ceil(2);
+        let mut radiance = Array2::zeros((self.rows.len() * cols, albedos.len()));
         for (node, albedo) in albedos.iter().enumerate() {
-            let gathered = &self.gather * self.radiosity(&power, *albedo)?;
+            let gathered = self.gathered(Symmetry::Even, &power, *albedo)?;
             for (row, direct) in direct.iter().enumerate() {
-                for col in 0..self.cols {
-                    let facet = row * half + col.min(self.cols - 1 - col);
-                    radiance[(row * self.cols + col, node)] = albedo * (direct + gathered[facet]);
+                for col in 0..cols {
+                    let facet = row * half + col.min(cols - 1 - col);
+                    radiance[(row * cols + col, node)] = albedo * (direct + gathered[facet]);
                 }
             }
         }
         Ok(radiance)
     }
 
-    /// Middles of the patches of one half with their normals, in the order of the irradiances of
-    /// [`BentExchange::bounced`].
-    pub(crate) fn places(&self, width: f64) -> impl Iterator<Item = [Vector3<f64>; 2]> + '_ {
-        self.strips.iter().flat_map(move |strip| {
-            let middle = strip.at(0.5);
-            (0..HALF).map(move |c| {
-                let y = ((c as f64 + 0.5) / COLUMNS as f64 - 0.5) * width;
-                [Vector3::new(middle.x, y, middle.y), Vector3::new(strip.normal.x, 0.0, strip.normal.y)]
-            })
-        })
+    /// The fold whose panels and facets it has; its angle is not used.
+    pub(crate) fn fold(&self) -> &Fold {
+        &self.fold
+    }
+
+    /// Angle between the panels' chords, degrees.
+    pub(crate) fn angle_deg(&self) -> f64 {
+        self.angle_deg
+    }
+
+    /// The middle line of each strip and its normal, across the crease and out of the fold.
+    pub(crate) fn middles(&self) -> impl Iterator<Item = [Vector2<f64>; 2]> + '_ {
+        self.strips.iter().map(|strip| [strip.at(0.5), strip.normal])
+    }
+
+    /// Positions along the crease of the middles of a strip's patches in one half.
+    pub(crate) fn columns(&self) -> [f64; HALF] {
+        std::array::from_fn(|c| ((c as f64 + 0.5) / COLUMNS as f64 - 0.5) * self.fold.width())
     }
 
     /// The points of the sheet visible in each row of facets of both panels.
@@ -171,22 +178,29 @@ impl BentExchange {
     }
 
     /// Irradiance of the facets of one half (panel, row, column) by the sheet, given the external irradiances
-    /// of the patches: a column per light.
-    pub(crate) fn bounced(&self, irradiances: &DMatrix<f64>, albedo: f64) -> Result<DMatrix<f64>> {
+    /// of the patches, strip by strip: a column per light.
+    pub(crate) fn bounced(
+        &self,
+        symmetry: Symmetry,
+        irradiances: &DMatrix<f64>,
+        albedo: f64,
+    ) -> Result<DMatrix<f64>> {
         let power = DMatrix::from_fn(irradiances.nrows(), irradiances.ncols(), |patch, light| {
             irradiances[(patch, light)] * self.areas[patch]
         });
-        Ok(&self.gather * self.radiosity(&power, albedo)?)
+        self.gathered(symmetry, &power, albedo)
     }
 
-    /// Light leaving every patch, given the external light that it receives, times its area.
-    fn radiosity(&self, power: &DMatrix<f64>, albedo: f64) -> Result<DMatrix<f64>> {
-        let mut system = -&self.exchange;
+    /// The same, given the external light that every patch receives, times its area.
+    fn gathered(&self, symmetry: Symmetry, power: &DMatrix<f64>, albedo: f64) -> Result<DMatrix<f64>> {
+        let mut system = -&self.exchange[symmetry as usize];
         for (n, area) in self.areas.iter().enumerate() {
             system[(n, n)] += area / albedo;
         }
-        let solved = Cholesky::new(system).map(|factors| factors.solve(power));
-        solved.ok_or_else(|| Error::Numeric(format!("no light escapes a bent sheet of albedo {albedo}")))
+        let left = Cholesky::new(system).map(|factors| factors.solve(power));
+        let left =
+            left.ok_or_else(|| Error::Numeric(format!("no light escapes a bent sheet of albedo {albedo}")))?;
+        Ok(&self.gather[symmetry as usize] * left)
     }
 }
 
@@ -197,30 +211,32 @@ fn column_width(column: usize, fold: &Fold) -> f64 {
 }
 
 /// Area times form factor of all pairs of patches, computed from the shallower of two strips.
-fn exchange(strips: &[Strip], fold: &Fold, image: f64) -> DMatrix<f64> {
+fn exchange(strips: &[Strip], fold: &Fold) -> [DMatrix<f64>; 2] {
     let [across, along] = POINTS.map(Rule::gauss_legendre);
     let width = fold.width() / COLUMNS as f64;
     let column = |c: usize| along.on(0.0, width).map(move |(y, _)| c as f64 * width - 0.5 * fold.width() + y);
     let places: Vec<f64> = (0..HALF).flat_map(column).collect();
-    let columns = Columns::seen_from(&places, COLUMNS, fold.width(), image);
-    let mut exchange = DMatrix::zeros(strips.len() * HALF, strips.len() * HALF);
-    let mut shares = vec![0.0; places.len() * HALF];
+    let columns = Columns::seen_from(&places, COLUMNS, fold.width());
+    let mut exchange = [0, 1].map(|_| DMatrix::zeros(strips.len() * HALF, strips.len() * HALF));
+    let mut shares = [0, 1].map(|_| vec![0.0; places.len() * HALF]);
     for (i, one) in strips.iter().enumerate() {
         for (j, other) in strips.iter().enumerate().skip(i + 1) {
             let ((i, from), (j, to)) =
                 if one.depth() <= other.depth() { ((i, one), (j, other)) } else { ((j, other), (i, one)) };
-            shares.fill(0.0);
+            shares.iter_mut().for_each(|shares| shares.fill(0.0));
             for (share, weight) in across.on(0.0, 1.0) {
                 if let Some(seen) = SeenStrip::new(from.at(share), from.normal, to) {
                     columns.add_shares(&seen, weight, &mut shares);
                 }
             }
-            for (place, shares) in shares.chunks_exact(HALF).enumerate() {
-                let (c, weight) = (place / POINTS[1], 0.5 * along.weights[place % POINTS[1]]);
-                for (d, share) in shares.iter().enumerate() {
-                    let flux = weight * share * from.depth() * column_width(c, fold);
-                    exchange[(i * HALF + c, j * HALF + d)] += flux;
-                    exchange[(j * HALF + d, i * HALF + c)] += flux;
+            for (exchange, shares) in exchange.iter_mut().zip(&shares) {
+                for (place, shares) in shares.chunks_exact(HALF).enumerate() {
+                    let (c, weight) = (place / POINTS[1], 0.5 * along.weights[place % POINTS[1]]);
+                    for (d, share) in shares.iter().enumerate() {
+                        let flux = weight * share * from.depth() * column_width(c, fold);
+                        exchange[(i * HALF + c, j * HALF + d)] += flux;
+                        exchange[(j * HALF + d, i * HALF + c)] += flux;
+                    }
                 }
             }
         }
@@ -229,21 +245,23 @@ fn exchange(strips: &[Strip], fold: &Fold, image: f64) -> DMatrix<f64> {
 }
 
 /// Form factor from each facet of one half to each patch; samples come with their panels.
-fn gather(strips: &[Strip], samples: &[(usize, Sample)], fold: &Fold, image: f64) -> DMatrix<f64> {
+fn gather(strips: &[Strip], samples: &[(usize, Sample)], fold: &Fold) -> [DMatrix<f64>; 2] {
     let (rows, cols) = (fold.facets().rows, fold.facets().cols);
     let half = cols.div_ceil(2);
     let places: Vec<f64> = (0..half).map(|c| ((c as f64 + 0.5) / cols as f64 - 0.5) * fold.width()).collect();
-    let columns = Columns::seen_from(&places, COLUMNS, fold.width(), image);
-    let mut gather = DMatrix::zeros(2 * rows * half, strips.len() * HALF);
-    let mut shares = vec![0.0; half * HALF];
+    let columns = Columns::seen_from(&places, COLUMNS, fold.width());
+    let mut gather = [0, 1].map(|_| DMatrix::zeros(2 * rows * half, strips.len() * HALF));
+    let mut shares = [0, 1].map(|_| vec![0.0; half * HALF]);
     for (panel, sample) in samples {
         let from = &strips[sample.strip];
         for (j, to) in strips.iter().enumerate() {
             let Some(seen) = SeenStrip::new(from.at(sample.share), from.normal, to) else { continue };
-            shares.fill(0.0);
+            shares.iter_mut().for_each(|shares| shares.fill(0.0));
             columns.add_shares(&seen, sample.weight, &mut shares);
-            for (n, share) in shares.iter().enumerate() {
-                gather[((panel * rows + sample.row) * half + n / HALF, j * HALF + n % HALF)] += share;
+            for (gather, shares) in gather.iter_mut().zip(&shares) {
+                for (n, share) in shares.iter().enumerate() {
+                    gather[((panel * rows + sample.row) * half + n / HALF, j * HALF + n % HALF)] += share;
+                }
             }
         }
     }

@@ -9,10 +9,12 @@ mod columns;
 mod exchange;
 mod section;
 mod seen;
+mod symmetry;
 mod view;
 
 pub use exchange::BentExchange;
 pub(crate) use exchange::Seen;
+pub(crate) use symmetry::Symmetry;
 
 use nalgebra::Vector3;
 use ndarray::Array2;
