@@ -11,7 +11,7 @@ use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
 use super::prior::Prior;
 use crate::solve::dense::{add_rows, product_with_transposed};
-use crate::solve::posterior::{Linearised, Model};
+use crate::solve::posterior::{Evaluated, Linearised, Model};
 
 /// Reflectance at which the spread of spectra is half of what their logits imply: the surface of a dark sheet
 /// reflects some light of all wavelengths, whatever is beneath. Between 0.003 and 0.01 the value matters less
@@ -27,7 +27,8 @@ fn whitened(jacobian: &DMatrix<f64>, gaussian: &Gaussian) -> DMatrix<f64> {
     let (bands, coordinates) = gaussian.basis().shape();
     let (rows, unknowns) = (jacobian.nrows(), jacobian.ncols() - bands);
     let mut all = DMatrix::zeros(rows, coordinates + unknowns);
-    add_rows(&mut all, 0..rows, (jacobian, &gaussian.basis().transpose()), 0..bands);
+    let of_spectrum = &mut all.as_mut_slice()[..rows * coordinates];
+    add_rows(of_spectrum, 0..rows, (jacobian, &gaussian.basis().transpose()), 0..bands);
     all.columns_mut(coordinates, unknowns).copy_from(&jacobian.columns(bands, unknowns));
     all
 }
@@ -219,18 +220,21 @@ impl Family for FacetData<'_> {
 
 impl Model for Facets<'_> {
     type Second = Second;
+    type Ingredients = ();
 
     fn unknowns(&self) -> usize {
         self.gaussian.basis().ncols() + self.data.unknowns()
     }
 
-    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
+    fn evaluate(&self, w: &DVector<f64>) -> Evaluated<()> {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        self.data.residuals(&reflectance, unknowns.as_slice()).residuals
+        let Residuals { residuals, .. } = self.data.residuals(&reflectance, unknowns.as_slice());
+        Evaluated { residuals, ingredients: () }
     }
 
-    fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
+    /// With second derivatives it takes other products than the residuals.
+    fn derivatives(&self, w: &DVector<f64>, _: Evaluated<()>) -> Linearised<Second> {
         let (residuals, second) = self.linearised(w);
         Linearised::new(residuals, whitened(&second.jacobian, self.gaussian), second)
     }

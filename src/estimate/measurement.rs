@@ -12,7 +12,7 @@ use super::light::{self, Candidate, Others, Shown};
 use super::measured::Measured;
 use super::other_camera::{OtherCameras, rival_camera};
 use super::photograph::day::Day;
-use super::photograph::{self, Parts, SheetEstimate, StatedScene, Unmodelled};
+use super::photograph::{self, Parts, SheetEstimate, StatedScene, Unmodelled, Weighed};
 use super::prior::Prior;
 use super::rival::Rival;
 use super::shading::Shading;
@@ -161,19 +161,23 @@ impl<'a> Inference<'a> {
             stated: StatedScene { shown: Some(shown), ..parts.stated },
             ..parts.clone()
         });
-        let SheetEstimate { mut photographs, modes, .. } =
-            photograph::estimate(slice::from_ref(lit.as_ref().unwrap_or(parts)), self.prior)?;
-        let real = photographs.pop().ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
-        let day = real.day.map(|found| found.day);
-        let rival = self
-            .other_lights
-            .and_then(|others| light::rival_in_photograph(parts, (day, &modes), others, self.prior));
-        doubts.splice(0..0, self.doubt_of_light(rival));
+        let Weighed { modes, folds } =
+            photograph::weigh(slice::from_ref(lit.as_ref().unwrap_or(parts)), self.prior)?;
         let is_named = photograph.making.taken_by != Default::default();
-        let camera = self
-            .other_cameras
-            .filter(|_| !is_named || parts.eye.is_stand_in)
-            .and_then(|others| rival_camera(parts, (day, &modes), others, self.prior));
+        let cameras = self.other_cameras.filter(|_| !is_named || parts.eye.is_stand_in);
+        // three searches that all start from the modes
+        let (sheet, (light, camera)) = rayon::join(
+            || modes.estimate(folds, self.prior),
+            || {
+                rayon::join(
+                    || light::rival_in_photograph(parts, &modes, self.other_lights?, self.prior),
+                    || rival_camera(parts, &modes, cameras?, self.prior),
+                )
+            },
+        );
+        let real = sheet?.photographs.pop();
+        let real = real.ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
+        doubts.splice(0..0, self.doubt_of_light(light));
         doubts.extend(camera.map(|camera| camera.doubt_of_camera(&self.stated.camera)));
         if !photograph.by_chart {
             doubts.extend(other_exposure(facets.exposure, &real));
@@ -277,11 +281,7 @@ impl<'a> Inference<'a> {
 ///
 /// # Errors
 /// [`Error::Field`] if they show several sheets, [`Error::Numeric`] if facets are not finite.
-pub fn of_one_sheet<'a>(
-    photographs: &'a [Parts],
-    names: &[String],
-    prior: &Prior,
-) -> Result<SheetEstimate<'a>> {
+pub fn of_one_sheet(photographs: &[Parts], names: &[String], prior: &Prior) -> Result<SheetEstimate> {
     let together = photograph::estimate_usual(photographs, prior)?;
     let mut apart = 0.0;
     for one in photographs {

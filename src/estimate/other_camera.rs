@@ -7,7 +7,6 @@
 
 use std::sync::OnceLock;
 
-use super::photograph::day::Day;
 use super::photograph::hypotheses::Hypothesis;
 use super::photograph::sheet_models::SheetModel;
 use super::photograph::{Modes, Parts};
@@ -71,15 +70,10 @@ impl OtherCameras {
 }
 
 /// The camera among `others`, if any, with which a photograph is much more probable than with the stated one,
-/// given the kind of `day` that has been inferred and the modes of its search.
-pub fn rival_camera(
-    parts: &Parts,
-    (day, modes): (Option<Day>, &Modes),
-    others: &OtherCameras,
-    prior: &Prior,
-) -> Option<Rival> {
-    let Modes { photographs, of_days, ln_by_emission } = modes;
-    let (day, mode) = of_days.iter().find(|(of, _)| day.is_none_or(|day| day == *of))?;
+/// given the modes of its search.
+pub fn rival_camera(parts: &Parts, modes: &Modes, others: &OtherCameras, prior: &Prior) -> Option<Rival> {
+    let Modes { photographs, ln_by_emission, .. } = modes;
+    let (day, mode) = modes.of_day()?;
     let hypothesis = Hypothesis::on_dull_day(*day, SheetModel::Family);
     let mut search = Search::new(photographs, prior);
     // the mode of a sheet that may emit light has more numbers

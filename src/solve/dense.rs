@@ -53,7 +53,7 @@ pub fn transposed_product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
 #[must_use]
 pub fn product_with_transposed(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let mut product = DMatrix::zeros(a.nrows(), b.nrows());
-    add_rows(&mut product, 0..a.nrows(), (a, b), 0..a.ncols());
+    add_rows(product.as_mut_slice(), 0..a.nrows(), (a, b), 0..a.ncols());
     product
 }
 
@@ -96,27 +96,22 @@ impl WithSimd for DotProducts<'_> {
     }
 }
 
-/// Adds some rows of `a·bᵀ`, summed over some columns of both, to the same rows of `sum`.
+/// Adds some rows of `a·bᵀ`, summed over some columns of both, to the same rows of `sum`, which is stored
+/// column by column.
 ///
 /// # Panics
-/// If rows or columns are not there, or `sum` has fewer columns than `b` has rows.
+/// If rows or columns are not there, or `sum` has not as many rows as `a` and columns as `b` has rows.
 pub fn add_rows(
-    sum: &mut DMatrix<f64>,
+    sum: &mut [f64],
     rows: Range<usize>,
     (a, b): (&DMatrix<f64>, &DMatrix<f64>),
     inner: Range<usize>,
 ) {
-    assert!(rows.end <= a.nrows().min(sum.nrows()) && sum.ncols() >= b.nrows(), "rows of a product");
+    assert!(rows.end <= a.nrows() && sum.len() == a.nrows() * b.nrows(), "rows of a product");
     assert!(inner.end <= a.ncols().min(b.ncols()), "columns of a product");
-    let (height, width) = (sum.nrows(), b.nrows());
-    let factors = Factors { left: a.as_slice(), heights: [a.nrows(), b.nrows()], right: b.as_slice(), inner };
-    Arch::new().dispatch(Product {
-        sum: &mut sum.as_mut_slice()[..height * width],
-        height,
-        factors,
-        rows,
-        columns: 0..width,
-    });
+    let (height, width) = (a.nrows(), b.nrows());
+    let factors = Factors { left: a.as_slice(), heights: [height, width], right: b.as_slice(), inner };
+    Arch::new().dispatch(Product { sum, height, factors, rows, columns: 0..width });
 }
 
 /// The lower triangle of `aᵀa`; what is above the diagonal means nothing.
@@ -352,7 +347,7 @@ mod tests {
             assert!((transposed_product(&a, &a) - a.tr_mul(&a)).amax() < 1e-12);
             let mut part = DMatrix::zeros(rows, columns);
             let (first, some) = (rows / 3, inner / 2);
-            add_rows(&mut part, first..rows, (&a, &b.transpose()), some..inner);
+            add_rows(part.as_mut_slice(), first..rows, (&a, &b.transpose()), some..inner);
             let expected = a.view((first, some), (rows - first, inner - some)) * b.rows(some, inner - some);
             assert!((part.rows(first, rows - first) - expected).amax() < 1e-12);
             assert!(part.rows(0, first).iter().all(|value| *value == 0.0));

@@ -78,25 +78,27 @@ pub fn foreseen_cost(model: &impl Model, w: &DVector<f64>, tempering: f64) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::posterior::{Linearised, find_mode};
+    use crate::solve::posterior::{Evaluated, Linearised, find_mode};
 
     /// A straight line through the origin.
     struct Line;
 
     impl Model for Line {
         type Second = ();
+        type Ingredients = ();
 
         fn unknowns(&self) -> usize {
             1
         }
 
-        fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-            DVector::from_vec(vec![3.0 - 2.0 * w[0], 1.0 - w[0]])
+        fn evaluate(&self, w: &DVector<f64>) -> Evaluated<()> {
+            let residuals = DVector::from_vec(vec![3.0 - 2.0 * w[0], 1.0 - w[0]]);
+            Evaluated { residuals, ingredients: () }
         }
 
-        fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+        fn derivatives(&self, _: &DVector<f64>, at: Evaluated<()>) -> Linearised<()> {
             let jacobian = DMatrix::from_column_slice(2, 1, &[2.0, 1.0]);
-            Linearised::new(self.residuals(w), jacobian, ())
+            Linearised::new(at.residuals, jacobian, ())
         }
 
         fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {

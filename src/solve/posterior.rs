@@ -50,20 +50,38 @@ const LEAST_PROMISE: f64 = 0.01;
 const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
 /// A step that lowers the cost by less than this share of its excess over the limit is useless.
-const TOO_LITTLE: f64 = 0.005;
+const TOO_LITTLE: f64 = 0.05;
 
 /// A model observed through data of known noise.
 pub trait Model {
     /// What second derivatives at a point are computed from.
     type Second;
+    /// What is computed for the residuals at a point and serves for derivatives, too.
+    type Ingredients;
     /// Number of unknowns.
     fn unknowns(&self) -> usize;
+    /// The model at `w`.
+    fn evaluate(&self, w: &DVector<f64>) -> Evaluated<Self::Ingredients>;
+    /// The model there with its derivatives.
+    fn derivatives(&self, w: &DVector<f64>, at: Evaluated<Self::Ingredients>) -> Linearised<Self::Second>;
     /// Data minus model at `w`, in units of the noise.
-    fn residuals(&self, w: &DVector<f64>) -> DVector<f64>;
+    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
+        self.evaluate(w).residuals
+    }
     /// Residuals with their derivatives.
-    fn linearise(&self, w: &DVector<f64>) -> Linearised<Self::Second>;
+    fn linearise(&self, w: &DVector<f64>) -> Linearised<Self::Second> {
+        self.derivatives(w, self.evaluate(w))
+    }
     /// `Σ λᵢ∇²mᵢ` at a point, with one multiplier λ per residual; `None` if it is omitted.
     fn curvature(&self, at: &Self::Second, multipliers: &DVector<f64>) -> Option<DMatrix<f64>>;
+}
+
+/// A model at a point.
+pub struct Evaluated<I> {
+    /// Data minus model, in units of the noise.
+    pub residuals: DVector<f64>,
+    /// What else derivatives there are computed from.
+    pub ingredients: I,
 }
 
 /// A model linearised about a point.
@@ -322,9 +340,9 @@ impl<M: Model> Search<'_, M> {
             if direction.as_ref().is_some_and(|step| newton.descent.dot(step) < self.least_promise) {
                 return false;
             }
-            if let Some((next, kept)) = direction.and_then(|direction| self.trial(newton, direction)) {
-                self.at = self.model.linearise(&next);
-                self.w = next;
+            if let Some(Trial { w, at, kept }) = direction.and_then(|step| self.trial(newton, step)) {
+                self.at = self.model.derivatives(&w, at);
+                self.w = w;
                 // Damping replaces a curvature that is left out: it rises where that matters.
                 if curvature.is_some() || kept > KEPT_WELL {
                     self.damping *= DAMPING_DOWN;
@@ -358,38 +376,45 @@ impl<M: Model> Search<'_, M> {
         (direction.norm() <= LONGEST).then_some(direction)
     }
 
-    /// The result of a step, corrected for curvature if it achieves less than half of the predicted decrease,
-    /// and the share achieved; `None` if the cost is higher.
-    fn trial(&self, newton: &GaussNewton, direction: DVector<f64>) -> Option<(DVector<f64>, f64)> {
+    /// The result of a step, corrected for curvature if it achieves less than half of the predicted decrease;
+    /// `None` if the cost is higher.
+    fn trial(&self, newton: &GaussNewton, direction: DVector<f64>) -> Option<Trial<M::Ingredients>> {
         let cost = |w: &DVector<f64>, residuals: &DVector<f64>| cost(newton.weight, w, residuals);
         let before = cost(&self.w, &self.at.residuals);
-        let mut next = &self.w + &direction;
-        let mut residuals = self.model.residuals(&next);
-        let mut after = cost(&next, &residuals);
+        let mut w = &self.w + &direction;
+        let mut at = self.model.evaluate(&w);
+        let mut after = cost(&w, &at.residuals);
         let promise = newton.descent.dot(&direction);
         if after < before - 0.5 * promise {
-            return Some((next, (before - after) / promise));
+            return Some(Trial { w, at, kept: (before - after) / promise });
         }
         // The curvature of precise data has thrown the step off their valley: corrections with the old
         // factor, for the deviation from the linear prediction, lead back to it.
         let foreseen = &self.at.residuals - &self.at.jacobian * direction;
-        let enough = before - KEPT * (before - cost(&next, &foreseen));
+        let enough = before - KEPT * (before - cost(&w, &foreseen));
         for _ in 0..CORRECTIONS {
-            let unforeseen = residuals - &foreseen;
-            let corrected =
-                &next + newton.factor.solve(&(newton.weight * self.at.jacobian.tr_mul(&unforeseen)));
-            residuals = self.model.residuals(&corrected);
-            let after_correction = cost(&corrected, &residuals);
+            let unforeseen = &at.residuals - &foreseen;
+            let corrected = &w + newton.factor.solve(&(newton.weight * self.at.jacobian.tr_mul(&unforeseen)));
+            let at_corrected = self.model.evaluate(&corrected);
+            let after_correction = cost(&corrected, &at_corrected.residuals);
             if after_correction.partial_cmp(&after) != Some(Ordering::Less) {
                 break;
             }
-            (next, after) = (corrected, after_correction);
+            (w, at, after) = (corrected, at_corrected, after_correction);
             if after < enough {
                 break;
             }
         }
-        (after < before).then_some((next, (before - after) / promise))
+        (after < before).then_some(Trial { w, at, kept: (before - after) / promise })
     }
+}
+
+/// The result of a step that lowers the cost.
+struct Trial<I> {
+    w: DVector<f64>,
+    at: Evaluated<I>,
+    /// Share achieved of the predicted decrease.
+    kept: f64,
 }
 
 #[cfg(test)]
@@ -404,18 +429,20 @@ mod tests {
 
     impl Model for Exponential {
         type Second = f64;
+        type Ingredients = ();
 
         fn unknowns(&self) -> usize {
             1
         }
 
-        fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-            DVector::from_element(1, self.data - self.scale * w[0].exp())
+        fn evaluate(&self, w: &DVector<f64>) -> Evaluated<()> {
+            let residuals = DVector::from_element(1, self.data - self.scale * w[0].exp());
+            Evaluated { residuals, ingredients: () }
         }
 
-        fn linearise(&self, w: &DVector<f64>) -> Linearised<f64> {
+        fn derivatives(&self, w: &DVector<f64>, at: Evaluated<()>) -> Linearised<f64> {
             let second = self.scale * w[0].exp();
-            Linearised::new(self.residuals(w), DMatrix::from_element(1, 1, second), second)
+            Linearised::new(at.residuals, DMatrix::from_element(1, 1, second), second)
         }
 
         fn curvature(&self, at: &f64, multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {
@@ -431,18 +458,20 @@ mod tests {
 
     impl Model for Valley {
         type Second = ();
+        type Ingredients = ();
 
         fn unknowns(&self) -> usize {
             2
         }
 
-        fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-            DVector::from_element(1, -PRECISION * (w[1] - BEND * w[0] * w[0]))
+        fn evaluate(&self, w: &DVector<f64>) -> Evaluated<()> {
+            let residuals = DVector::from_element(1, -PRECISION * (w[1] - BEND * w[0] * w[0]));
+            Evaluated { residuals, ingredients: () }
         }
 
-        fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+        fn derivatives(&self, w: &DVector<f64>, at: Evaluated<()>) -> Linearised<()> {
             let jacobian = PRECISION * DMatrix::from_row_slice(1, 2, &[-2.0 * BEND * w[0], 1.0]);
-            Linearised::new(self.residuals(w), jacobian, ())
+            Linearised::new(at.residuals, jacobian, ())
         }
 
         fn curvature(&self, (): &(), multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {
@@ -469,19 +498,21 @@ mod tests {
 
     impl Model for Kink {
         type Second = ();
+        type Ingredients = ();
 
         fn unknowns(&self) -> usize {
             2
         }
 
-        fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-            DVector::from_vec(vec![-5.0 - 10.0 * (w[0] - 1.0).abs(), 3.0 * (w[1] - w[0])])
+        fn evaluate(&self, w: &DVector<f64>) -> Evaluated<()> {
+            let residuals = DVector::from_vec(vec![-5.0 - 10.0 * (w[0] - 1.0).abs(), 3.0 * (w[1] - w[0])]);
+            Evaluated { residuals, ingredients: () }
         }
 
-        fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+        fn derivatives(&self, w: &DVector<f64>, at: Evaluated<()>) -> Linearised<()> {
             let slope = 10.0 * (w[0] - 1.0).signum();
             let jacobian = DMatrix::from_row_slice(2, 2, &[slope, 0.0, 3.0, -3.0]);
-            Linearised::new(self.residuals(w), jacobian, ())
+            Linearised::new(at.residuals, jacobian, ())
         }
 
         fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {

@@ -56,19 +56,14 @@ impl Starts {
     }
 }
 
-/// The light among `others`, if any, in which a photograph is much more probable than in the stated one, for
-/// which the kind of `day` has been inferred if it is daylight.
-pub fn rival_in_photograph(
-    parts: &Parts,
-    (day, modes): (Option<Day>, &Modes),
-    others: &Others,
-    prior: &Prior,
-) -> Option<Rival> {
-    let Modes { photographs, of_days, ln_by_emission } = modes;
-    let days = day.map_or_else(|| Day::ALL.to_vec(), |day| vec![day]);
+/// The light among `others`, if any, in which a photograph is much more probable than in the stated one,
+/// given the modes of its search.
+pub fn rival_in_photograph(parts: &Parts, modes: &Modes, others: &Others, prior: &Prior) -> Option<Rival> {
+    let Modes { photographs, day, ln_by_emission, .. } = modes;
+    let days = day.map_or_else(|| Day::ALL.to_vec(), |found| vec![found.day]);
     let under_sky = Lit { name: String::new(), with_sky: parts.clone(), without_sky: Vec::new(), days };
     let mut starts = Starts::default();
-    if let Some((_, mode)) = of_days.iter().find(|(of, _)| day.is_none_or(|day| day == *of)) {
+    if let Some((_, mode)) = modes.of_day() {
         starts.keep(mode);
     }
     let best_under_sky = under_sky.best(photographs, prior, (&mut starts, f64::NEG_INFINITY))?;

@@ -167,13 +167,12 @@ impl Whitening {
         for alike in affected.chunk_by(|a, b| a == b) {
             let (affected, width) = (&alike[0], alike.len());
             let transposed = errors.columns(first, width).transpose();
-            let mut own = DMatrix::zeros(count, width);
+            let own = &mut white.as_mut_slice()[first * count..(first + width) * count];
             for start in (affected.start..count).step_by(ROWS) {
                 let end = count.min(start + ROWS);
                 let inner = affected.start..affected.end.min(end);
-                add_rows(&mut own, start..end, (&self.inverse, &transposed), inner);
+                add_rows(own, start..end, (&self.inverse, &transposed), inner);
             }
-            white.columns_mut(first, width).copy_from(&own);
             first += width;
         }
         white

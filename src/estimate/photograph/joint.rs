@@ -4,11 +4,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::hypotheses::Hypothesis;
-use super::model::PhotographModel;
+use super::model::{Ingredients, PhotographModel};
 use super::number::Number;
 use super::whitened::Photograph;
 use crate::estimate::gaussian::Gaussian;
-use crate::solve::posterior::{Linearised, Model};
+use crate::solve::posterior::{Evaluated, Linearised, Model};
 
 /// One of the photographs within the joint model.
 pub struct Member<'a> {
@@ -135,27 +135,32 @@ impl<'a> JointModel<'a> {
     }
 }
 
-impl Model for JointModel<'_> {
+impl<'a> Model for JointModel<'a> {
     type Second = ();
+    type Ingredients = Vec<Evaluated<Ingredients<'a>>>;
 
     fn unknowns(&self) -> usize {
         self.count
     }
 
-    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-        let each: Vec<_> = self.members.iter().map(|member| member.model.residuals(&member.own(w))).collect();
-        DVector::from_iterator(each.iter().map(DVector::len).sum(), each.iter().flatten().copied())
+    fn evaluate(&self, w: &DVector<f64>) -> Evaluated<Self::Ingredients> {
+        let ingredients: Vec<_> =
+            self.members.iter().map(|member| member.model.evaluate(&member.own(w))).collect();
+        let residuals = ingredients.iter().flat_map(|one| one.residuals.iter().copied()).collect::<Vec<_>>();
+        Evaluated { residuals: DVector::from_vec(residuals), ingredients }
     }
 
-    fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
+    fn derivatives(&self, w: &DVector<f64>, at: Evaluated<Self::Ingredients>) -> Linearised<()> {
+        let members = self.members.iter().zip(at.ingredients);
+        let mut each: Vec<_> =
+            members.map(|(member, at)| member.model.derivatives(&member.own(w), at)).collect();
         // its numbers are the only ones
-        if let [only] = self.members.as_slice() {
-            return only.model.linearise(w);
+        if each.len() == 1
+            && let Some(only) = each.pop()
+        {
+            return only;
         }
-        let each: Vec<_> = self.members.iter().map(|member| member.model.linearise(&member.own(w))).collect();
-        let values = each.iter().map(|one| one.residuals.len()).sum();
-        let residuals = each.iter().flat_map(|one| one.residuals.iter().copied());
-        let residuals = DVector::from_iterator(values, residuals);
+        let values = at.residuals.len();
         let (mut jacobian, mut first) = (DMatrix::zeros(values, self.count), 0);
         for (member, one) in self.members.iter().zip(&each) {
             for (column, place) in one.jacobian.column_iter().zip(&member.places) {
@@ -163,7 +168,7 @@ impl Model for JointModel<'_> {
             }
             first += one.residuals.len();
         }
-        Linearised::new(residuals, jacobian, ())
+        Linearised::new(at.residuals, jacobian, ())
     }
 
     /// Omitted: the priors bound the unknowns, and the noise of photographs does not act as a constraint.

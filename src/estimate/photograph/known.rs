@@ -13,7 +13,7 @@ use crate::estimate::family::{Family, SpectrumModel};
 use crate::estimate::prior::Prior;
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::{Normal, SKY_COLOUR, SUN_COLOUR, Unknown};
-use crate::solve::posterior::{Limits, Linearised, Model, Solution, find_mode, first_tempering};
+use crate::solve::posterior::{Evaluated, Limits, Linearised, Model, Solution, find_mode, first_tempering};
 
 /// A mode counts as found within this many standard deviations, which changes the log evidence by much less
 /// than one. A search ends after this many iterations.
@@ -72,24 +72,27 @@ fn stacked(above: &DVector<f64>, below: &DVector<f64>) -> DVector<f64> {
     DVector::from_iterator(above.len() + below.len(), above.iter().chain(below).copied())
 }
 
-impl Model for KnownModel<'_> {
+impl<'a> Model for KnownModel<'a> {
     type Second = ();
+    type Ingredients = Evaluated<<JointModel<'a> as Model>::Ingredients>;
 
     fn unknowns(&self) -> usize {
         self.photograph.unknowns()
     }
 
-    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-        stacked(&self.photograph.residuals(w), &self.of_reflectance(w))
+    fn evaluate(&self, w: &DVector<f64>) -> Evaluated<Self::Ingredients> {
+        let of_photograph = self.photograph.evaluate(w);
+        let residuals = stacked(&of_photograph.residuals, &self.of_reflectance(w));
+        Evaluated { residuals, ingredients: of_photograph }
     }
 
-    fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
-        let Linearised { residuals, jacobian, .. } = self.photograph.linearise(w);
+    fn derivatives(&self, w: &DVector<f64>, at: Evaluated<Self::Ingredients>) -> Linearised<()> {
+        let Linearised { jacobian, .. } = self.photograph.derivatives(w, at.ingredients);
         let by_reflectance = &self.known.whitening * self.photograph.reflectance_slopes(w);
         let (facets, bands) = (jacobian.nrows(), by_reflectance.nrows());
         let mut jacobian = jacobian.resize_vertically(facets + bands, 0.0);
         jacobian.rows_mut(facets, bands).copy_from(&by_reflectance);
-        Linearised::new(stacked(&residuals, &self.of_reflectance(w)), jacobian, ())
+        Linearised::new(at.residuals, jacobian, ())
     }
 
     /// Omitted as for photographs.

@@ -36,35 +36,60 @@ const LN_EVIDENCE_FAR: f64 = -8.0;
 
 type Tried = Sorted<Hypothesis, ()>;
 
-/// A sheet as inferred from its photographs.
-pub struct SheetEstimate<'a> {
-    /// One estimate per photograph: spectrum and error bars are common to all, the rest is individual.
-    pub photographs: Vec<Estimate>,
-    /// Log evidence of all facets, up to a term that depends on each photograph alone: the difference between
-    /// one sheet and several decides between the two.
-    pub ln_evidence: f64,
-    /// What searches in another light start from.
+/// Photographs of a sheet with their hypotheses weighed under all spectra as one.
+pub struct Weighed<'a> {
+    /// What searches in another light or of another camera start from.
     pub modes: Modes<'a>,
+    /// The folds that the evidence does not rule out.
+    pub folds: Folds,
 }
 
 /// Modes of a sheet of the [family](SheetModel::Family).
 pub struct Modes<'a> {
     /// The photographs, with errors relative to predicted values.
     pub photographs: Photographs<'a>,
+    /// The most probable kind of day; `None` if the light is not daylight.
+    pub day: Option<DayEstimate>,
     /// The mode on each kind of day that was tried.
-    pub of_days: Vec<(Day, DVector<f64>)>,
+    of_days: Vec<(Day, DVector<f64>)>,
     /// Logarithm of how many times as probable the facets of a usual photograph are if the sheet may emit
     /// light: other lights and cameras, in which it is assumed not to, must be ahead by more.
     pub ln_by_emission: f64,
 }
 
-/// The estimate from photographs of one sheet, one or more.
+/// Folds in order of evidence.
+pub struct Folds {
+    sorted: Vec<Tried>,
+    /// Probability that no light bounces between the panels.
+    without_bounces: f64,
+    /// Iterations by run.
+    trace: Vec<Vec<Iteration>>,
+}
+
+/// A sheet as inferred from its photographs.
+pub struct SheetEstimate {
+    /// One estimate per photograph: spectrum and error bars are common to all, the rest is individual.
+    pub photographs: Vec<Estimate>,
+    /// Log evidence of all facets, up to a term that depends on each photograph alone: the difference between
+    /// one sheet and several decides between the two.
+    pub ln_evidence: f64,
+}
+
+/// Weighs all hypotheses on photographs of one sheet, one or more.
 ///
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
-pub fn estimate<'a>(parts: &'a [Parts], prior: &Prior) -> Result<SheetEstimate<'a>> {
-    let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
-    under(parts, prior, (hypotheses, dull_days)).ok_or_else(not_finite)
+pub fn weigh<'a>(parts: &'a [Parts], prior: &Prior) -> Result<Weighed<'a>> {
+    Weighed::under(parts, prior, (hypotheses, dull_days)).ok_or_else(not_finite)
+}
+
+/// The estimate from photographs of one sheet, one or more.
+///
+/// # Errors
+/// As [`weigh`].
+pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
+    let Weighed { modes, folds } = weigh(parts, prior)?;
+    modes.estimate(folds, prior)
 }
 
 /// The estimate from photographs assumed to be usual ones, however ideal their facets, as those of planned
@@ -72,54 +97,91 @@ pub fn estimate<'a>(parts: &'a [Parts], prior: &Prior) -> Result<SheetEstimate<'
 ///
 /// # Errors
 /// As [`estimate`]; [`Error::Field`] if the stated scene has no sun, which is required here.
-pub fn estimate_usual<'a>(parts: &'a [Parts], prior: &Prior) -> Result<SheetEstimate<'a>> {
+pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
     if parts.iter().any(|one| one.stated.sun <= 0.0) {
         let problem = "photographs are joined and planned only in sunlight; \
                        estimate one lit by the sky alone by itself";
         return Err(Error::field("light.sun", problem));
     }
-    let not_finite = || Error::Numeric("the facets of the photograph are not finite".to_owned());
-    under(parts, prior, (|_| usual_hypotheses(), |_| Vec::new())).ok_or_else(not_finite)
+    let Weighed { modes, folds } =
+        Weighed::under(parts, prior, (|_| usual_hypotheses(), |_| Vec::new())).ok_or_else(not_finite)?;
+    modes.estimate(folds, prior)
 }
 
-fn under<'a>(
-    parts: &'a [Parts],
-    prior: &Prior,
-    (hypotheses, dull_days): (impl Fn(&[Photograph]) -> Vec<Hypothesis>, impl Fn(&[Photograph]) -> Vec<Day>),
-) -> Option<SheetEstimate<'a>> {
-    let (family, start) = relative_to_predictions(Photographs::of(parts), prior)?;
-    let mut search = Search::new(&family, prior);
-    let all = hypotheses(&family.0).into_iter().chain(hypotheses_without_bounces());
-    let stated = &family.0.first()?.parts.stated;
-    let mut sorted = sorted(&mut search, stated, (all, start), &dull_days(&family.0));
-    let mut ln_by_emission = 0.0;
-    if let [only] = family.0.as_slice() {
-        ln_by_emission = add_emitting(&mut search, (&family, only), &mut sorted).unwrap_or(0.0);
-        sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+fn not_finite() -> Error {
+    Error::Numeric("the facets of the photograph are not finite".to_owned())
+}
+
+impl<'a> Weighed<'a> {
+    fn under(
+        parts: &'a [Parts],
+        prior: &Prior,
+        (hypotheses, dull_days): (
+            impl Fn(&[Photograph]) -> Vec<Hypothesis>,
+            impl Fn(&[Photograph]) -> Vec<Day>,
+        ),
+    ) -> Option<Self> {
+        let (photographs, start) = relative_to_predictions(Photographs::of(parts), prior)?;
+        let mut search = Search::new(&photographs, prior);
+        let all = hypotheses(&photographs.0).into_iter().chain(hypotheses_without_bounces());
+        let stated = &photographs.0.first()?.parts.stated;
+        let mut sorted = sorted(&mut search, stated, (all, start), &dull_days(&photographs.0));
+        let mut ln_by_emission = 0.0;
+        if let [only] = photographs.0.as_slice() {
+            ln_by_emission = add_emitting(&mut search, (&photographs, only), &mut sorted).unwrap_or(0.0);
+            sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        }
+        let trace = search.trace;
+        let is_of_family = |one: &Hypothesis| {
+            let Hypothesis { day, emission, .. } = *one;
+            *one == Hypothesis { emission, ..Hypothesis::on_dull_day(day, SheetModel::Family) }
+        };
+        let of_family = sorted.iter().filter(|one| is_of_family(&one.hypothesis));
+        let of_days = of_family.map(|one| (one.hypothesis.day, one.solution.w.clone())).collect();
+        // without a fold, no light bounces between panels
+        let without_bounces = probability(&sorted, |one| !one.has_bounces());
+        let sorted = folds(sorted);
+        let day = day(&sorted, &photographs.0);
+        let modes = Modes { photographs, day, of_days, ln_by_emission };
+        Some(Self { modes, folds: Folds { sorted, without_bounces, trace } })
     }
-    let is_of_family = |one: &Hypothesis| {
-        let Hypothesis { day, emission, .. } = *one;
-        *one == Hypothesis { emission, ..Hypothesis::on_dull_day(day, SheetModel::Family) }
-    };
-    let of_family = sorted.iter().filter(|one| is_of_family(&one.hypothesis));
-    let of_days = of_family.map(|one| (one.hypothesis.day, one.solution.w.clone())).collect();
-    // without a fold, no light bounces between panels
-    let without_bounces = probability(&sorted, |one| !one.has_bounces());
-    let folds = folds(sorted);
-    let day = day(&folds, &family.0);
-    let found = search.mixture(&folds)?;
-    let seen = family.seen(&found.best)?;
-    let of = |(photograph, seen): (&Photograph, Seen)| {
-        let (findings, skipped) =
-            (all_findings(photograph, &found, &seen, day), skipped(&seen.fitted, search.skipped));
-        let fluorescence = fluorescence(photograph, &found);
-        let estimate = of_photograph(&found, seen, &search.trace);
-        Estimate { findings, day, without_bounces, skipped, fluorescence, ..estimate }
-    };
-    let estimates = family.0.iter().zip(seen).map(of).collect();
-    let ln_evidence = found.ln_evidence;
-    let modes = Modes { photographs: family, of_days, ln_by_emission };
-    Some(SheetEstimate { photographs: estimates, ln_evidence, modes })
+}
+
+impl Modes<'_> {
+    /// The mode on the most probable kind of day, or on the first one if the light is not daylight.
+    #[must_use]
+    pub fn of_day(&self) -> Option<&(Day, DVector<f64>)> {
+        self.of_days.iter().find(|(of, _)| self.day.is_none_or(|found| found.day == *of))
+    }
+
+    /// The estimate under all `folds` of these photographs.
+    ///
+    /// # Errors
+    /// [`Error::Numeric`] if the facets are not finite.
+    pub fn estimate(&self, folds: Folds, prior: &Prior) -> Result<SheetEstimate> {
+        self.mixture(folds, prior).ok_or_else(not_finite)
+    }
+
+    fn mixture(
+        &self,
+        Folds { sorted, without_bounces, trace }: Folds,
+        prior: &Prior,
+    ) -> Option<SheetEstimate> {
+        let Self { photographs, day, .. } = self;
+        let mut search = Search::new(photographs, prior);
+        search.trace = trace;
+        let found = search.mixture(&sorted)?;
+        let seen = photographs.seen(&found.best)?;
+        let of = |(photograph, seen): (&Photograph, Seen)| {
+            let (findings, skipped) =
+                (all_findings(photograph, &found, &seen, *day), skipped(&seen.fitted, search.skipped));
+            let fluorescence = fluorescence(photograph, &found);
+            let estimate = of_photograph(&found, seen, &search.trace);
+            Estimate { findings, day: *day, without_bounces, skipped, fluorescence, ..estimate }
+        };
+        let estimates = photographs.0.iter().zip(seen).map(of).collect();
+        Some(SheetEstimate { photographs: estimates, ln_evidence: found.ln_evidence })
+    }
 }
 
 /// Photographs with errors relative to predicted values rather than to measured ones, and the point of the

@@ -1,7 +1,6 @@
 //! A photograph with the whitening of its residuals.
 
-use std::cell::OnceCell;
-use std::rc::Rc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 
@@ -17,13 +16,13 @@ pub struct Photograph<'a> {
     /// Its ingredients.
     pub parts: &'a Parts,
     /// The sheet models as they appear in it.
-    pub sheet_models: Rc<SheetModels<'a>>,
+    pub sheet_models: Arc<SheetModels<'a>>,
     /// The values to which errors are relative.
     values: DMatrix<f64>,
     /// Whitening of the residuals for each size of model error on each kind of day, computed on first use.
-    whitenings: Rc<[[OnceCell<Option<Whitening>>; Day::ALL.len()]; 4]>,
+    whitenings: Arc<[[OnceLock<Option<Whitening>>; Day::ALL.len()]; 4]>,
     /// Possible emissions of its sheet, computed on first use.
-    emissions: OnceCell<Vec<Emission>>,
+    emissions: OnceLock<Vec<Emission>>,
 }
 
 /// Lower bound of the values to which errors are relative, as a share of a channel's brightest value: nothing
@@ -36,8 +35,8 @@ impl<'a> Photograph<'a> {
     pub fn all(of: &'a [Parts]) -> Vec<Self> {
         let photograph = |(parts, sheet_models): (&'a Parts, SheetModels<'a>)| {
             let values = parts.values.clone();
-            let sheet_models = Rc::new(sheet_models);
-            Self { parts, sheet_models, values, whitenings: Rc::default(), emissions: OnceCell::new() }
+            let sheet_models = Arc::new(sheet_models);
+            Self { parts, sheet_models, values, whitenings: Arc::default(), emissions: OnceLock::new() }
                 .relative_to(parts.values.clone())
         };
         of.iter().zip(SheetModels::of(of)).map(photograph).collect()
@@ -50,15 +49,15 @@ impl<'a> Photograph<'a> {
             let least = DARKEST * channel.max();
             channel.apply(|value| *value = value.max(least));
         }
-        Self { values, whitenings: Rc::default(), ..self }
+        Self { values, whitenings: Arc::default(), ..self }
     }
 
     /// The same photograph assumed to be in the light of other parts, which are otherwise the same.
     #[must_use]
     pub fn in_light_of(&self, parts: &'a Parts) -> Self {
         let Self { sheet_models, values, whitenings, .. } = self;
-        let (sheet_models, whitenings) = (Rc::clone(sheet_models), Rc::clone(whitenings));
-        Self { parts, sheet_models, values: values.clone(), whitenings, emissions: OnceCell::new() }
+        let (sheet_models, whitenings) = (Arc::clone(sheet_models), Arc::clone(whitenings));
+        Self { parts, sheet_models, values: values.clone(), whitenings, emissions: OnceLock::new() }
     }
 
     /// Possible emissions of its sheet in the stated light, the first of which is none.

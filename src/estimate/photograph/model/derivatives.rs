@@ -4,14 +4,13 @@ use std::borrow::Cow;
 
 use nalgebra::{DMatrix, DMatrixViewMut, DVector};
 
-use super::PhotographModel;
-use crate::estimate::gaussian::logistic;
+use super::{Ingredients, PhotographModel};
 use crate::estimate::photograph::hypotheses::Hypothesis;
 use crate::estimate::photograph::number::Number;
 use crate::estimate::photograph::prediction::{Predicted, Predictor};
 use crate::estimate::unknowns::Known;
 use crate::solve::dense::{add_product, columns};
-use crate::solve::posterior::{Linearised, Model};
+use crate::solve::posterior::{Evaluated, Linearised, Model};
 
 /// Step of the difference quotients for unknowns of the scene, in standard deviations.
 const STEP: f64 = 1e-3;
@@ -83,11 +82,8 @@ impl PhotographModel<'_> {
     #[must_use]
     pub fn by_nominal(&self, w: &DVector<f64>) -> Option<DMatrix<f64>> {
         self.hypothesis.imperfection.is_ideal().then_some(())?;
-        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        let (terms, sensitivities) = (self.terms(w, &albedo), self.sensitivities(w));
+        let Ingredients { terms, sensitivities, conditions, beyond, facets: here, .. } = self.ingredients(w);
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
-        let (conditions, beyond) = (self.conditions(w), self.beyond(w));
-        let here = predictor.facets(&conditions, &beyond);
         let is_nominal =
             |number: &&Number| (number.effect.known)(&self.stated) == Known::Nominal && !number.matters();
         let numbers: Vec<&Number> = self.numbers.iter().filter(is_nominal).collect();
@@ -115,25 +111,23 @@ fn in_order(values: &DMatrix<f64>) -> DVector<f64> {
     DVector::from_column_slice(values.as_slice())
 }
 
-impl Model for PhotographModel<'_> {
+impl<'a> Model for PhotographModel<'a> {
     type Second = ();
+    type Ingredients = Ingredients<'a>;
 
     fn unknowns(&self) -> usize {
         self.layout()[4]
     }
 
-    fn residuals(&self, w: &DVector<f64>) -> DVector<f64> {
-        self.whitening.of(&in_order(&self.left_over(w)))
+    fn evaluate(&self, w: &DVector<f64>) -> Evaluated<Ingredients<'a>> {
+        let ingredients = self.ingredients(w);
+        let residuals = self.whitening.of(&in_order(&(&self.parts.values - &ingredients.facets.values)));
+        Evaluated { residuals, ingredients }
     }
 
-    fn linearise(&self, w: &DVector<f64>) -> Linearised<()> {
-        let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
-        let terms = self.terms(w, &albedo);
-        let beyond = self.beyond(w);
-        let sensitivities = self.sensitivities(w);
+    fn derivatives(&self, w: &DVector<f64>, at: Evaluated<Ingredients<'a>>) -> Linearised<()> {
+        let Ingredients { albedo, terms, sensitivities, conditions, beyond, facets: here } = at.ingredients;
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
-        let conditions = self.conditions(w);
-        let here = predictor.facets(&conditions, &beyond);
         let Predicted { values, lens, lights, .. } = &here;
         let [scene, sheet, camera, emission, end] = self.layout();
         let mut jacobian = DMatrix::zeros(values.len(), end);
@@ -167,8 +161,7 @@ impl Model for PhotographModel<'_> {
                 jacobian.column_mut(n).copy_from_slice(here.with_terms(&change).as_slice());
             }
         }
-        let residuals = self.whitening.of(&in_order(&(&self.parts.values - values)));
-        Linearised::new(residuals, self.whitening.of_all(&jacobian), ())
+        Linearised::new(at.residuals, self.whitening.of_all(&jacobian), ())
     }
 
     /// Omitted: the priors bound the unknowns, and the noise of photographs does not act as a constraint.

@@ -41,6 +41,19 @@ pub struct PhotographModel<'a> {
     curve_errors: DMatrix<f64>,
 }
 
+/// Facets at a point of the model, with what they are computed from.
+pub struct Ingredients<'a> {
+    /// Albedo per waveband.
+    albedo: Vec<f64>,
+    terms: Terms,
+    /// Waveband by channel.
+    sensitivities: DMatrix<f64>,
+    conditions: Conditions,
+    /// Radiance of the facets minus that of a Lambertian sheet.
+    beyond: Radiance,
+    facets: Predicted<'a>,
+}
+
 /// A point of the model in its own units.
 pub struct Point {
     /// Albedo of the sheet per waveband: reflectance for light from all directions into all directions.
@@ -217,11 +230,13 @@ impl<'a> PhotographModel<'a> {
     }
 
     /// The facets at `w`.
-    fn predicted(&self, w: &DVector<f64>) -> Predicted<'a> {
+    fn ingredients(&self, w: &DVector<f64>) -> Ingredients<'a> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
         let (terms, sensitivities) = (self.terms(w, &albedo), self.sensitivities(w));
+        let (conditions, beyond) = (self.conditions(w), self.beyond(w));
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
-        predictor.facets(&self.conditions(w), &self.beyond(w))
+        let facets = predictor.facets(&conditions, &beyond);
+        Ingredients { albedo, terms, sensitivities, conditions, beyond, facets }
     }
 
     /// Errors of an instrument's reflectance that the facets do not determine: error by waveband; `None` if
@@ -258,7 +273,7 @@ impl<'a> PhotographModel<'a> {
     /// The values at `w`: facet by channel.
     #[must_use]
     pub fn values_at(&self, w: &DVector<f64>) -> DMatrix<f64> {
-        self.predicted(w).values
+        self.ingredients(w).facets.values
     }
 
     /// The measured values: facet by channel.
@@ -270,7 +285,7 @@ impl<'a> PhotographModel<'a> {
     /// Residuals before whitening: facet by channel.
     #[must_use]
     pub fn left_over(&self, w: &DVector<f64>) -> DMatrix<f64> {
-        &self.parts.values - self.predicted(w).values
+        &self.parts.values - self.ingredients(w).facets.values
     }
 }
 
