@@ -9,6 +9,7 @@ use super::day::{Day, DayEstimate};
 use super::family::{Photographs, Seen};
 use super::findings::{of_day, of_unknowns};
 use super::hypotheses::{Hypothesis, dull_days, hypotheses, hypotheses_without_bounces, usual_hypotheses};
+use super::imperfection::Imperfection;
 use super::parts::Parts;
 use super::sheet_models::SheetModel;
 use super::whitened::Photograph;
@@ -269,17 +270,23 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
     if ln_most(true) < ln_most(false) + LN_EVIDENCE_NEAR {
         return;
     }
+    let ln_hopeless = ln_most(true).max(ln_most(false)) + LN_EVIDENCE_HOPELESS;
     for has_bounces in [true, false] {
         let is_weighed = |one: &Tried| {
             !one.hypothesis.imperfection.is_ideal() && one.hypothesis.has_bounces() == has_bounces
         };
         let real = all.iter().filter(|one| is_weighed(one));
         let Some(real) = real.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight())) else { continue };
-        let less =
-            real.hypothesis.imperfection.with_less_discrepancy().into_iter().filter_map(|imperfection| {
-                let hypothesis = Hypothesis { imperfection, ..real.hypothesis };
-                search.sort((hypothesis, real.ln_share), Some(real.solution.w.clone()), f64::NEG_INFINITY)
-            });
+        // an error that is a sixteenth as large makes one datum at most sixteen times as probable
+        let data = real.solution.at.residuals.len() as f64;
+        let is_hopeful = |imperfection: &Imperfection| {
+            real.ln_weight() - data * imperfection.discrepancy.size().ln() > ln_hopeless
+        };
+        let less = real.hypothesis.imperfection.with_less_discrepancy().into_iter().filter(is_hopeful);
+        let less = less.filter_map(|imperfection| {
+            let hypothesis = Hypothesis { imperfection, ..real.hypothesis };
+            search.sort((hypothesis, real.ln_share), Some(real.solution.w.clone()), ln_hopeless)
+        });
         let more = less.map(|one| one.ln_evidence - real.ln_evidence).fold(0.0, f64::max);
         all.iter_mut().filter(|one| is_weighed(one)).for_each(|one| one.ln_share += more);
     }
