@@ -233,8 +233,12 @@ impl Model for Facets<'_> {
         Evaluated { residuals, ingredients: () }
     }
 
-    /// With second derivatives it takes other products than the residuals.
     fn derivatives(&self, w: &DVector<f64>, _: Evaluated<()>) -> Linearised<Second> {
+        self.linearise(w)
+    }
+
+    /// With second derivatives it takes other products than the residuals.
+    fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
         let (residuals, second) = self.linearised(w);
         Linearised::new(residuals, whitened(&second.jacobian, self.gaussian), second)
     }
