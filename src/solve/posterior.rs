@@ -50,7 +50,7 @@ const LEAST_PROMISE: f64 = 0.01;
 const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
 /// A step that lowers the cost by less than this share of its excess over the limit is useless.
-const TOO_LITTLE: f64 = 0.05;
+const TOO_LITTLE: f64 = 0.005;
 
 /// A model observed through data of known noise.
 pub trait Model {
