@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use nalgebra::{DMatrix, DVector, DVectorView};
 
 use super::channels::Channels;
-use super::compress::{compress, sample_terms, sum_of_rows, weighted};
+use super::compress::{Reach, channel_of, sum_of_rows};
 use super::emission::terms::{ExcitingBounces, Made, made};
 use super::emission::{EXCITING_PLACE, Emission, Fall, Sent, UNKNOWNS};
 use super::gaussian::logistic;
@@ -18,6 +18,7 @@ use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::estimate::Exposure;
 use crate::estimate::unknowns::{Amounts, Normal, SceneModel};
+use crate::forward::Source;
 
 /// The problem of one sample: weighted, compressed data and the model that predicts them.
 ///
@@ -132,11 +133,23 @@ impl<'a> FacetData<'a> {
         let model = scene.facets();
         let usable = usable_facets(model, measured)?;
         let channels = model.sources()[0].camera.channels();
-        let samples = brightness(measured, exposure) * sample_terms(model);
+        let brightness = brightness(measured, exposure);
         let (mut values, mut maps, mut outside, mut peak) = (Vec::new(), Vec::new(), 0.0, 0.0_f64);
         for channel in 0..channels {
-            let (data, sources) = weighted(model, measured, &usable, channel);
-            let (kept, sources) = compress(&data, &sources, &samples, cutoff);
+            let [data, weights] = channel_of(measured, &usable, channel);
+            let data = data.component_mul(&weights);
+            let is_even = weights.iter().all(|weight| *weight == weights[0]);
+            let (kept, sources) = if is_even && usable.len() == measured.rgb.len() {
+                scene.reach().compressed(&data, (weights[0], brightness, cutoff))
+            } else {
+                let weighted = |source: &Source| {
+                    let mut facets = source.facets.select_rows(&usable);
+                    facets.column_iter_mut().for_each(|mut term| term.component_mul_assign(&weights));
+                    facets
+                };
+                let sources: Vec<_> = model.sources().iter().map(weighted).collect();
+                Reach::of(model, &sources).compressed(&data, (1.0, brightness, cutoff))
+            };
             outside += data.norm_squared() - kept.norm_squared();
             peak = peak.max(data.max());
             values.extend(kept.iter());

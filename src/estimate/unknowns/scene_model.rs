@@ -1,12 +1,13 @@
 //! A facet model with sources whose amounts depend on unknowns.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::{DMatrix, DVector};
 
 use super::factor::Jet;
 use super::{Factor, Normal, Unknown};
 use crate::camera::CameraResponse;
+use crate::estimate::compress::Reach;
 use crate::estimate::emission::{Backing, Emission};
 use crate::forward::FacetModel;
 
@@ -59,6 +60,8 @@ pub struct SceneModel {
     /// Possible emissions of the sheet in its light, the first of which is none; empty if emission is not
     /// considered.
     emissions: Arc<[Emission]>,
+    /// How far reflectances can move its facets if all are known equally well, computed on first use.
+    reach: OnceLock<Arc<Reach>>,
 }
 
 impl SceneModel {
@@ -72,7 +75,7 @@ impl SceneModel {
     /// A scene with unknowns: `factors` has a row per source of `facets`, with one factor per unknown.
     #[must_use]
     pub fn new(facets: FacetModel, unknowns: Vec<Expected>, factors: Vec<Vec<Factor>>) -> Self {
-        Self { facets, unknowns, factors, emissions: Arc::default() }
+        Self { facets, unknowns, factors, emissions: Arc::default(), reach: OnceLock::new() }
     }
 
     /// The same scene with a sheet, backed so, that may emit light itself under light of this relative power.
@@ -91,6 +94,14 @@ impl SceneModel {
     #[must_use]
     pub fn facets(&self) -> &FacetModel {
         &self.facets
+    }
+
+    /// How far reflectances can move its facets if all are known equally well.
+    pub(in crate::estimate) fn reach(&self) -> &Reach {
+        self.reach.get_or_init(|| {
+            let sources: Vec<_> = self.facets.sources().iter().map(|source| source.facets.clone()).collect();
+            Arc::new(Reach::of(&self.facets, &sources))
+        })
     }
 
     /// The unknowns.
