@@ -53,7 +53,7 @@ impl Reach {
         let Eigen { values, vectors } = Eigen::of_symmetric(square);
         let directions = (q * vectors).transpose();
         let maps = sources.iter().map(|source| &directions * source).collect();
-        Self { directions, squares: values.iter().copied().collect(), maps }
+        Self { directions, squares: values.as_slice().to_vec(), maps }
     }
 
     /// Data in units of their noise, projected onto the directions in which a reflectance can move them by

@@ -138,7 +138,7 @@ impl<'a> FacetData<'a> {
         for channel in 0..channels {
             let [data, weights] = channel_of(measured, &usable, channel);
             let data = data.component_mul(&weights);
-            let is_even = weights.iter().all(|weight| *weight == weights[0]);
+            let is_even = weights.max() <= weights.min();
             let (kept, sources) = if is_even && usable.len() == measured.rgb.len() {
                 scene.reach().compressed(&data, (weights[0], brightness, cutoff))
             } else {

@@ -1,6 +1,8 @@
 //! Tests whether a sheet fluoresces. A linear model predicts which bands are possible, so that no searches
 //! are made for sheets without any sign of them.
 
+use std::iter;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::data::FacetData;
@@ -20,6 +22,9 @@ const LN_EVIDENCE_HOPELESS: f64 = -12.0;
 /// Distance of the facets from a sheet without emission, in standard deviations beyond chance, above which
 /// the model linearised there does not predict other sheets.
 const SURPRISE: f64 = 5.0;
+/// Facets are precise if their noise is this many times smaller than that at which classes are distinguished: a
+/// sheet without emission then explains them, or it does not, and only then is emission considered.
+pub const PRECISE: f64 = 10.0;
 /// Probability above which a sheet is reported to fluoresce, together with it: that of a brightener in a
 /// white sheet beforehand. Below it, the facets rather speak against one.
 const REPORTED: f64 = 0.35;
@@ -38,27 +43,43 @@ pub fn is_hopeful(
 /// Facets as data of a fluorescent sheet, and their mode under all spectra.
 pub type Fluorescing<'a> = (FacetData<'a>, Sorted<(), Second>);
 
-/// The facets with each possible band that explains them, given their mode without emission, `plain`; there
-/// is hardly ever one.
-pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prior) -> Vec<Fluorescing<'a>> {
-    let [_, bands @ ..] = data.scene().emissions() else { return Vec::new() };
-    let of_plain = Search::new(data, prior);
-    let Some(test) = of_plain.score_test(plain) else { return Vec::new() };
+/// The bands among `emissions`, the first of which is none, that a sheet may have: indices, and whether the
+/// facets are too far from a sheet without emission to start from it; `plain` is their mode under all spectra
+/// for such a sheet.
+pub fn possible<H>(
+    data: &FacetData,
+    emissions: &[Emission],
+    plain: &Sorted<H, Second>,
+    prior: &Prior,
+) -> (Vec<usize>, bool) {
+    let search = Search::new(data, prior);
+    let ([_, bands @ ..], Some(test)) = (emissions, ScoreTest::at(&plain.solution, search.tempering()))
+    else {
+        return Default::default();
+    };
     let facets = Facets { data, gaussian: prior.broad() };
     let (logit, unknowns) = facets.split(&plain.solution.w);
     let reflectance = facets.reflectance_at(&plain.solution.w);
     let changes = data.changes_with(bands, (&logit, &reflectance), unknowns.as_slice());
-    let is_unexplained = of_plain.surprise(plain) > SURPRISE;
+    let is_unexplained = plain.solution.surprise(search.tempering()) > SURPRISE;
+    let is_possible = |(emission, changes): (&Emission, &Vec<_>)| {
+        // a free exposure absorbs light from behind
+        let is_absorbed = emission.origin() == Some(Origin::Behind) && data.fits_exposure();
+        let may_be = || is_unexplained || is_hopeful(&test, changes, emission, &logit);
+        !is_absorbed && may_be()
+    };
+    let possible = iter::zip(bands, &changes).enumerate().filter(|(_, one)| is_possible(*one));
+    (possible.map(|(n, _)| n + 1).collect(), is_unexplained)
+}
+
+/// The facets with each possible band that explains them, given their mode without emission, `plain`; there
+/// is hardly ever one.
+pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prior) -> Vec<Fluorescing<'a>> {
+    let emissions = data.scene().emissions();
+    let (possible, is_unexplained) = possible(data, emissions, plain, prior);
     let mut best = plain.ln_evidence;
     let mut all = Vec::new();
-    for (emission, changes) in bands.iter().zip(changes) {
-        // a free exposure absorbs light from behind
-        if emission.origin() == Some(Origin::Behind) && data.fits_exposure() {
-            continue;
-        }
-        if !is_unexplained && !is_hopeful(&test, &changes, emission, &logit) {
-            continue;
-        }
+    for emission in possible.into_iter().map(|n| &emissions[n]) {
         let Some(emitting) = data.emitting(emission) else { continue };
         let mut search = Search::new(&emitting, prior);
         let numbers = plain.solution.w.len() + emission.unknowns();

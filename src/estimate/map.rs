@@ -7,31 +7,19 @@
 
 use std::iter;
 
-use super::alternatives::Alternatives;
+use super::Estimate;
 use super::data::FacetData;
 use super::facets::{Facets, Second};
-use super::fluorescence_search::{self, Fluorescing};
+use super::fluorescence_search::{self, Fluorescing, PRECISE};
 use super::light::{Others, rival};
 use super::mixture::Mixture;
 use super::prior::Prior;
 use super::rival::Rival;
 use super::search::{Search, Sorted};
-use super::unknowns::{EXPOSURE, Expected};
+use super::searched::{Searched, Trace};
+use super::unknowns::Expected;
 use super::verdict::EXPLAINED;
-use super::{Estimate, Fitted};
 use crate::error::{Error, Result};
-use crate::solve::posterior::Iteration;
-
-/// A fitted number is supported by the facets if its standard deviation is below this share of the prior one;
-/// an exposure, which has no prior, if its standard deviation is below this share of its value.
-const SUPPORTED: f64 = 0.8;
-const EXPOSURE_SUPPORTED: f64 = 0.5;
-
-/// Facets are precise if their noise is this many times smaller than that at which classes are distinguished.
-const PRECISE: f64 = 10.0;
-
-/// Iterations by run.
-type Trace = Vec<Vec<Iteration>>;
 
 /// The most probable reflectance, together with the scene's unknowns. `start` is an initial reflectance in
 /// place of the prior's mean; if one mode has more evidence than all others it makes no difference.
@@ -75,12 +63,6 @@ struct Sortings<'a> {
     plain: Sorted<(), Second>,
     fluorescing: Vec<Fluorescing<'a>>,
     trace: Trace,
-}
-
-/// The mean of all modes, and the alternatives that it covers.
-struct Searched<'a> {
-    mixture: Mixture<usize, Second>,
-    alternatives: Alternatives<'a>,
 }
 
 impl<'a> Sortings<'a> {
@@ -130,86 +112,10 @@ fn with_plain<'a>(
     Some(iter::once((of_plain, plain)).chain(fluorescing).collect())
 }
 
-impl<'a> Searched<'a> {
-    fn among(all: Vec<Fluorescing<'a>>, prior: &Prior) -> Option<(Self, Trace)> {
-        let all = all.into_iter().enumerate();
-        let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
-            all.map(|(n, (data, sorted))| (data, sorted.for_hypothesis(n))).unzip();
-        sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-        let alternatives = Alternatives(alternatives);
-        let mut search = Search::new(&alternatives, prior);
-        let mixture = search.mixture(&sorted)?;
-        let trace = search.trace;
-        Some((Self { mixture, alternatives }, trace))
-    }
-
-    /// Converts to an estimate, with the errors of another mixture, `off`.
-    fn estimate(&self, data: &FacetData, off: &Mixture<usize, Second>, trace: Trace) -> Estimate {
-        let emission = |alternative: usize| self.alternatives.0[alternative].emission();
-        let origin = |alternative| emission(alternative)?.origin();
-        let Mixture { values, spread, shares, .. } = &self.mixture;
-        let shares = shares.iter().map(|(alternative, share)| (origin(*alternative), *share));
-        let first = data.scene().facets().bands() + data.scene().unknowns().len() + 1;
-        let fluorescence = emission(0).and_then(|nothing| {
-            fluorescence_search::found(shares, (values, spread.as_ref()), nothing, first)
-        });
-        Estimate { fluorescence, ..into_estimate(data, &self.mixture, off, trace) }
-    }
-}
-
 /// An unknown of the scene outside its range, and the bound that it exceeds.
 fn impossible(data: &FacetData, found: &Mixture<usize, Second>) -> Option<(usize, f64)> {
     let scene = data.scene();
     let values = &found.values[scene.facets().bands()..];
     let beyond = |(n, expected): (usize, &Expected)| Some((n, expected.bound_of(values[n])?));
     scene.unknowns().iter().enumerate().find_map(beyond)
-}
-
-/// Converts `found` to an estimate, with the errors of another mixture, `off`.
-pub(super) fn into_estimate<H>(
-    data: &FacetData,
-    found: &Mixture<H, Second>,
-    off: &Mixture<H, Second>,
-    trace: Vec<Vec<Iteration>>,
-) -> Estimate {
-    let (bands, unknowns) = (data.scene().facets().bands(), data.scene().unknowns());
-    let sd = |column: usize| off.spread.as_ref().map_or(f64::INFINITY, |all| all.column(column).norm());
-    let w = &off.best.start.w;
-    let first = off.best.start.gaussian.basis().ncols();
-    let of_unknowns = unknowns.iter().enumerate().map(|(n, expected)| {
-        let (sd, prior_sd) = (sd(bands + n), expected.at(w[first + n]).1.abs());
-        Fitted {
-            unknown: expected.unknown,
-            value: found.values[bands + n],
-            sd,
-            supported: sd < SUPPORTED * prior_sd,
-        }
-    });
-    let last = bands + unknowns.len();
-    let exposure = found.values[last];
-    let of_exposure = data.fits_exposure().then(|| Fitted {
-        unknown: &EXPOSURE,
-        value: exposure,
-        sd: sd(last),
-        supported: sd(last) < EXPOSURE_SUPPORTED * exposure,
-    });
-    Estimate {
-        albedo: None,
-        // weights of a mean may add up to slightly more than 1 by rounding
-        reflectance: found.values[..bands].iter().map(|r| r.min(1.0)).collect(),
-        fitted: of_exposure.into_iter().chain(of_unknowns).collect(),
-        findings: Vec::new(),
-        skipped: Vec::new(),
-        spread: off.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
-        exposure,
-        residual_rms: found.best.rms,
-        unexplained: data.unexplained(&found.best.at.residuals),
-        day: None,
-        fluorescence: None,
-        light: None,
-        without_bounces: 0.0,
-        iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,
-        trace,
-        termination: found.best.termination,
-    }
 }

@@ -31,6 +31,7 @@ pub mod photograph;
 pub mod prior;
 pub mod rival;
 mod search;
+mod searched;
 pub mod shading;
 pub mod shadow;
 mod smooth_errors;

@@ -8,27 +8,29 @@ use crate::error::Result;
 pub struct CandidateLight {
     /// Relative spectral power.
     pub spectrum: Spectrum,
-    /// Prior probability; those of all candidates add up to 1.
+    /// Prior probability; those of all candidates but those between others add up to 1.
     pub share: f64,
     /// Correlated colour temperature of daylight and black bodies, K.
     pub cct_k: Option<f64>,
     /// True for a daylight, all of which a photograph treats as one light of unknown temperature.
     pub is_any_daylight: bool,
+    /// True for a light between two similar ones, for evidence that tells these apart: then it takes its
+    /// probability from the one before it.
+    pub is_between: bool,
 }
 
 /// A kind of light.
 struct Kind {
     share: f64,
     is_any_daylight: bool,
-    /// The lights, with reciprocal temperatures at this spacing, 1e-6/K.
-    lights: fn(usize) -> Vec<(String, Option<f64>)>,
+    lights: fn() -> Vec<(String, Option<f64>)>,
 }
 
-/// Spacing of reciprocal temperatures, 1e-6/K: facets accurate to one part in a thousand distinguish lights
-/// between two of them from neither.
-const STEP_MIRED: usize = 10;
-/// The same for a known sheet.
-const FINE_STEP_MIRED: usize = 2;
+/// Spacing of reciprocal temperatures, 1e-6/K: facets of a known sheet do not distinguish neighbours.
+const STEP_MIRED: usize = 2;
+/// One light in this many is not between others: facets accurate to one part in a hundred hardly distinguish
+/// those.
+const BETWEEN: usize = 5;
 
 /// All that is known of where people fold sheets is that it is by day as often as not: the probabilities are
 /// round numbers, none of them fitted.
@@ -36,24 +38,22 @@ const SOURCES: [Kind; 5] = [
     Kind {
         share: 0.4,
         is_any_daylight: true,
-        lights: |step_mired| {
-            of_temperatures((80..=250).step_by(step_mired), |cct_k| format!("daylight:{cct_k}"))
-        },
+        lights: || of_temperatures((80..=250).step_by(STEP_MIRED), |cct_k| format!("daylight:{cct_k}")),
     },
     Kind {
         share: 0.1,
         is_any_daylight: true,
-        lights: |_| without_temperature(["sun:30deg", "sun:55deg", "sun:70deg", "sun:80deg"]),
+        lights: || without_temperature(["sun:30deg", "sun:55deg", "sun:70deg", "sun:80deg"]),
     },
     Kind {
         share: 0.15,
         is_any_daylight: false,
-        lights: |step_mired| of_temperatures((250..=400).step_by(step_mired), |cct_k| format!("{cct_k}K")),
+        lights: || of_temperatures((250..=400).step_by(STEP_MIRED), |cct_k| format!("{cct_k}K")),
     },
     Kind {
         share: 0.2,
         is_any_daylight: false,
-        lights: |_| {
+        lights: || {
             let bulbs = ["B1", "B2", "B3", "B4", "B5", "BH1", "RGB1", "V1", "V2"];
             without_temperature(bulbs.map(|name| format!("LED-{name}")))
         },
@@ -61,7 +61,7 @@ const SOURCES: [Kind; 5] = [
     Kind {
         share: 0.15,
         is_any_daylight: false,
-        lights: |_| without_temperature((1..=12).map(|n| format!("FL{n}"))),
+        lights: || without_temperature((1..=12).map(|n| format!("FL{n}"))),
     },
 ];
 
@@ -91,30 +91,36 @@ fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Ve
 /// use vfold::spectrum::candidate_lights;
 /// let lights = candidate_lights()?;
 /// assert!(lights.iter().any(|light| light.spectrum.name() == "FL11"));
-/// assert!((lights.iter().map(|light| light.share).sum::<f64>() - 1.0).abs() < 1e-9);
+/// let usual = lights.iter().filter(|light| !light.is_between);
+/// assert!((usual.map(|light| light.share).sum::<f64>() - 1.0).abs() < 1e-9);
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn candidate_lights() -> Result<Vec<CandidateLight>> {
-    lights_apart(STEP_MIRED)
+    spaced(BETWEEN)
 }
 
-/// The same lights, spaced more closely than the facets of a known sheet can distinguish.
+/// The same lights, all spaced more closely than the facets of a known sheet can distinguish, and none
+/// between others.
 ///
 /// # Errors
 /// As [`candidate_lights`].
 pub fn fine_candidate_lights() -> Result<Vec<CandidateLight>> {
-    lights_apart(FINE_STEP_MIRED)
+    spaced(1)
 }
 
-fn lights_apart(step_mired: usize) -> Result<Vec<CandidateLight>> {
+/// All lights, of which one in `steps` of a series of temperatures is not between others.
+fn spaced(steps: usize) -> Result<Vec<CandidateLight>> {
     let of_kind = |kind: &Kind| {
-        let lights = (kind.lights)(step_mired);
-        let share = kind.share / lights.len() as f64;
+        let lights = (kind.lights)();
+        let is_between = |(n, (_, cct_k)): (usize, &(String, Option<f64>))| cct_k.is_some() && n % steps > 0;
+        let between: Vec<bool> = lights.iter().enumerate().map(is_between).collect();
+        let share = kind.share / between.iter().filter(|is_between| !**is_between).count() as f64;
         let is_any_daylight = kind.is_any_daylight;
-        let light = move |(name, cct_k): (String, Option<f64>)| {
-            Ok(CandidateLight { spectrum: illuminant(&name)?, share, cct_k, is_any_daylight })
+        let light = move |((name, cct_k), is_between): ((String, Option<f64>), bool)| {
+            let share = if is_between { share / steps as f64 } else { share };
+            Ok(CandidateLight { spectrum: illuminant(&name)?, share, cct_k, is_any_daylight, is_between })
         };
-        lights.into_iter().map(light)
+        lights.into_iter().zip(between).map(light)
     };
     SOURCES.iter().flat_map(of_kind).collect()
 }
@@ -123,6 +129,9 @@ fn lights_apart(step_mired: usize) -> Result<Vec<CandidateLight>> {
 #[must_use]
 pub fn equal_candidates(spectra: Vec<Spectrum>) -> Vec<CandidateLight> {
     let share = 1.0 / spectra.len().max(1) as f64;
-    let light = |spectrum| CandidateLight { spectrum, share, cct_k: None, is_any_daylight: false };
+    let light = |spectrum| {
+        let (is_any_daylight, is_between) = (false, false);
+        CandidateLight { spectrum, share, cct_k: None, is_any_daylight, is_between }
+    };
     spectra.into_iter().map(light).collect()
 }

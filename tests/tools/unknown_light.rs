@@ -72,6 +72,38 @@ fn a_sheet_is_found_in_a_light_that_is_unknown() {
     assert!(rmse < 0.05 && within > 0.85, "{rmse} {within}");
 }
 
+/// Facets that tell candidates apart are tried in lights between them: a white sheet in D65, which lies
+/// between 6250 and 6667 K, fits neither.
+#[test]
+fn a_light_between_two_candidates_is_found() {
+    let run = Workdir::new()
+        .sh("vkernel | vforward -q --reflectance 0.9 --noise-sd 1e-3 | vestimate -q --illuminant unknown");
+    assert_eq!(run.status, 0, "{run:?}");
+    let estimate = &records(&run.stdout)[1]["estimate"];
+    let off: Vec<f64> = numbers(&estimate["reflectance"]).iter().map(|r| r - 0.9).collect();
+    assert!(rms(&off, &vec![0.0; off.len()]) < 0.03, "{off:?}");
+    for candidate in estimate["light"]["candidates"].as_array().unwrap() {
+        let cct_k = candidate["cct_k"].as_f64().unwrap_or(0.0);
+        assert!((6300.0..6650.0).contains(&cct_k), "{candidate}");
+    }
+}
+
+/// A brightened sheet is found in daylight that nobody states; a bluer day would look much alike.
+#[test]
+fn a_brightened_sheet_is_named_in_a_light_that_is_unknown() {
+    let run =
+        Workdir::new().sh("printf 'nm,f\n400,0.05\n435,0.25\n480,0.08\n520,0.01\n560,0\n700,0\n' > f.csv
+        vkernel | vforward -q --reflectance 0.8 --fluorescence f.csv --noise-sd 1e-3 \
+            | vestimate -q --illuminant unknown
+        vkernel | vforward -q --reflectance 0.8 --noise-sd 1e-3 | vestimate -q --illuminant unknown");
+    assert_eq!(run.status, 0, "{run:?}");
+    let all = records(&run.stdout);
+    let [brightened, plain] = [1, 3].map(|n| &all[n]["estimate"]["fluorescence"]);
+    let [probability, peak_nm] = ["probability", "peak_nm"].map(|name| brightened[name].as_f64().unwrap());
+    assert!(probability > 0.9 && (420.0..450.0).contains(&peak_nm), "{brightened}");
+    assert!(plain.is_null(), "{plain}");
+}
+
 #[test]
 fn probabilities_add_up_to_one() {
     let run = Workdir::new().sh(&format!(

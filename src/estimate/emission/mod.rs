@@ -257,6 +257,12 @@ impl Emission {
         own
     }
 
+    /// The same band in light of another relative `power`.
+    #[must_use]
+    pub fn in_light(&self, power: &[f64]) -> Self {
+        Self::on(self.wavelengths_nm.as_slice(), power, (self.band, self.all))
+    }
+
     /// What excites the band; `None` without emission.
     #[must_use]
     pub fn origin(&self) -> Option<Origin> {

@@ -39,6 +39,9 @@ pub struct Candidate {
     pub camera: CameraResponse,
     /// True for a daylight, all of which a photograph treats as one light of unknown temperature.
     pub is_any_daylight: bool,
+    /// True for a light between two similar ones, tried if evidence tells these apart: it then takes its
+    /// probability from the one before it.
+    pub is_between: bool,
     /// Logarithm of the exposure of a picture in it, if a known fold reveals it.
     pub exposure: Option<Normal>,
 }
@@ -83,6 +86,7 @@ impl Candidate {
                 cct_k: light.cct_k,
                 ln_share: light.share.ln(),
                 is_any_daylight: light.is_any_daylight,
+                is_between: light.is_between,
                 exposure: None,
                 camera: CameraResponse::new(grid, sensitivities, &power)?,
                 power,

@@ -150,12 +150,14 @@ pub fn estimate_photograph(
 
 /// All daylight under a sky as one scenario, and each daylight without a sky and each other light as one.
 fn scenarios<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Scenario<'a>> {
+    // errors of a photograph hide what is between
+    let lights: Vec<&Candidate> = lights.iter().filter(|light| !light.is_between).collect();
     let of_daylight: f64 =
         lights.iter().filter(|light| light.is_any_daylight).map(|light| light.ln_share.exp()).sum();
     let of_sky = (1.0 - WITHOUT_SKY) * of_daylight;
     let daylight =
         (of_daylight > 0.0).then(|| Scenario { light: None, ln_share: of_sky.ln(), parts: parts.clone() });
-    let others = lights.iter().filter(|light| !light.is_any_daylight);
+    let others = lights.iter().copied().filter(|light| !light.is_any_daylight);
     // for lamps one hypothesis represents all days, with the probability of a clear one
     let ln_clear = parts.stated.share_of(Day::Clear).ln();
     let of = |light: &'a Candidate| {
@@ -163,7 +165,7 @@ fn scenarios<'a>(parts: &Parts, lights: &'a [Candidate]) -> Vec<Scenario<'a>> {
         let ln_days = if parts.stated.daylight.is_some() { 0.0 } else { ln_clear };
         Scenario { light: Some(light), ln_share: light.ln_share - ln_days, parts }
     };
-    let flashes: Vec<&Candidate> = lights.iter().filter(|light| is_of_flash(light)).collect();
+    let flashes: Vec<&Candidate> = lights.iter().copied().filter(|light| is_of_flash(light)).collect();
     let ln_flash = (WITHOUT_SKY * of_daylight / flashes.len() as f64).ln() - ln_clear;
     let of_flash = |light: &'a Candidate| Scenario {
         light: Some(light),

@@ -1,0 +1,104 @@
+//! Facets under several alternatives, searched together: the mean of all modes as an estimate.
+
+use super::alternatives::Alternatives;
+use super::data::FacetData;
+use super::emission::Emission;
+use super::facets::Second;
+use super::fluorescence::Fluorescence;
+use super::fluorescence_search;
+use super::mixture::Mixture;
+use super::prior::Prior;
+use super::search::{Search, Sorted};
+use super::unknowns::EXPOSURE;
+use super::{Estimate, Fitted};
+use crate::solve::posterior::Iteration;
+
+/// A fitted number is supported by the facets if its standard deviation is below this share of the prior one;
+/// an exposure, which has no prior, if its standard deviation is below this share of its value.
+const SUPPORTED: f64 = 0.8;
+const EXPOSURE_SUPPORTED: f64 = 0.5;
+
+/// Iterations by run.
+pub type Trace = Vec<Vec<Iteration>>;
+
+/// The mean of all modes under some alternatives.
+pub struct Searched<'a> {
+    pub mixture: Mixture<usize, Second>,
+    /// As given, and with the same indices.
+    alternatives: Alternatives<'a, 'a>,
+}
+
+impl<'a> Searched<'a> {
+    /// Searches alternatives with their modes under all spectra, those without emission first.
+    pub fn among<H>(all: Vec<(FacetData<'a>, Sorted<H, Second>)>, prior: &Prior) -> Option<(Self, Trace)> {
+        let all = all.into_iter().enumerate();
+        let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
+            all.map(|(n, (data, sorted))| (data, sorted.for_hypothesis(n))).unzip();
+        sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        let alternatives = Alternatives::of(alternatives.into_iter().map(|data: FacetData<'a>| move || data));
+        let mut search = Search::new(&alternatives, prior);
+        let mixture = search.mixture(&sorted)?;
+        let trace = search.trace;
+        Some((Self { mixture, alternatives }, trace))
+    }
+
+    /// The facets under the alternative of the best mode.
+    pub fn best(&self) -> &FacetData<'a> {
+        self.alternatives.get(self.mixture.best.start.hypothesis)
+    }
+
+    /// Converts to an estimate from `data`, with the errors of another mixture, `off`.
+    pub fn estimate(&self, data: &FacetData, off: &Mixture<usize, Second>, trace: Trace) -> Estimate {
+        let found = &self.mixture;
+        let (bands, unknowns) = (data.scene().facets().bands(), data.scene().unknowns());
+        let sd = |column: usize| off.spread.as_ref().map_or(f64::INFINITY, |all| all.column(column).norm());
+        let w = &off.best.start.w;
+        let first = off.best.start.gaussian.basis().ncols();
+        let of_unknowns = unknowns.iter().enumerate().map(|(n, expected)| {
+            let (sd, prior_sd) = (sd(bands + n), expected.at(w[first + n]).1.abs());
+            Fitted {
+                unknown: expected.unknown,
+                value: found.values[bands + n],
+                sd,
+                supported: sd < SUPPORTED * prior_sd,
+            }
+        });
+        let last = bands + unknowns.len();
+        let exposure = found.values[last];
+        let of_exposure = data.fits_exposure().then(|| Fitted {
+            unknown: &EXPOSURE,
+            value: exposure,
+            sd: sd(last),
+            supported: sd(last) < EXPOSURE_SUPPORTED * exposure,
+        });
+        Estimate {
+            albedo: None,
+            // weights of a mean may add up to slightly more than 1 by rounding
+            reflectance: found.values[..bands].iter().map(|r| r.min(1.0)).collect(),
+            fitted: of_exposure.into_iter().chain(of_unknowns).collect(),
+            findings: Vec::new(),
+            skipped: Vec::new(),
+            spread: off.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
+            exposure,
+            residual_rms: found.best.rms,
+            unexplained: data.unexplained(&found.best.at.residuals),
+            day: None,
+            fluorescence: self.fluorescence(last + 1),
+            light: None,
+            without_bounces: 0.0,
+            iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,
+            trace,
+            termination: found.best.termination,
+        }
+    }
+
+    /// The emission of the sheet, given the index of its first value.
+    fn fluorescence(&self, first: usize) -> Option<Fluorescence> {
+        let emission = |alternative: usize| self.alternatives.get(alternative).emission();
+        let Mixture { values, spread, shares, .. } = &self.mixture;
+        let shares = shares
+            .iter()
+            .map(|(alternative, share)| (emission(*alternative).and_then(Emission::origin), *share));
+        fluorescence_search::found(shares, (values, spread.as_ref()), emission(0)?, first)
+    }
+}
