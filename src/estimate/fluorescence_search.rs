@@ -22,8 +22,8 @@ const LN_EVIDENCE_HOPELESS: f64 = -12.0;
 /// Distance of the facets from a sheet without emission, in standard deviations beyond chance, above which
 /// the model linearised there does not predict other sheets.
 const SURPRISE: f64 = 5.0;
-/// Facets are precise if their noise is this many times smaller than that at which classes are distinguished: a
-/// sheet without emission then explains them, or it does not, and only then is emission considered.
+/// Facets are precise if their noise is this many times smaller than that at which classes are distinguished:
+/// a sheet without emission then explains them, or it does not, and only then is emission considered.
 pub const PRECISE: f64 = 10.0;
 /// Probability above which a sheet is reported to fluoresce, together with it: that of a brightener in a
 /// white sheet beforehand. Below it, the facets rather speak against one.
