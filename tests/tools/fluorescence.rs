@@ -301,6 +301,19 @@ fn a_dye_in_a_photograph_is_named_and_its_light_told_from_what_is_reflected() {
         assert!(off < 0.1 && without < 0.05, "{tilt}: {off} {without}");
         assert!(plain["fluorescence"].is_null(), "{tilt}: {plain}");
     }
+    for (sheet, is_dyed) in [("dyed", true), ("undyed", false)] {
+        let joined = format!("cat {sheet}2.ndjson {sheet}3.ndjson | vestimate -q --join");
+        let run = folder.sh(&joined);
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{sheet}");
+        let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        for record in records.filter(|record| record["kind"] == "sample") {
+            let estimate = &record["estimate"];
+            let off = rmse(estimate, "reflectance", &reflected);
+            println!("{sheet} joined: {off} {} {}", estimate["verdict"], estimate["fluorescence"]);
+            assert_eq!(!estimate["fluorescence"].is_null(), is_dyed, "{sheet}: {estimate}");
+            assert!(off < if is_dyed { 0.1 } else { 0.05 }, "{sheet}: {off}");
+        }
+    }
 }
 
 /// A thin sheet before a bright table: light from behind comes through it, in proportion to the square of its

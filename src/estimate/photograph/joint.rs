@@ -25,6 +25,13 @@ impl Member<'_> {
         self.places[n]
     }
 
+    /// Index, among all numbers, of the size of the sheet's emission, if it has any.
+    #[must_use]
+    pub fn size_of_emission(&self) -> usize {
+        let [.., emission, _] = self.model.layout();
+        self.places[emission]
+    }
+
     /// Index, among all numbers, of the counterpart of the `n`-th of another model, if this one has it: lamps
     /// lack those of daylight.
     fn place_like(&self, other: &PhotographModel, n: usize) -> Option<usize> {

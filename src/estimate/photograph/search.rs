@@ -127,11 +127,8 @@ impl<'a> Weighed<'a> {
         let all = hypotheses(&photographs.0).into_iter().chain(hypotheses_without_bounces());
         let stated = &photographs.0.first()?.parts.stated;
         let mut sorted = sorted(&mut search, stated, (all, start), &dull_days(&photographs.0));
-        let mut ln_by_emission = 0.0;
-        if let [only] = photographs.0.as_slice() {
-            ln_by_emission = add_emitting(&mut search, (&photographs, only), &mut sorted).unwrap_or(0.0);
-            sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-        }
+        let ln_by_emission = add_emitting(&mut search, &photographs, &mut sorted).unwrap_or(0.0);
+        sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
         let trace = search.trace;
         let is_of_family = |one: &Hypothesis| {
             let Hypothesis { day, emission, .. } = *one;
@@ -295,13 +292,14 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
 /// Adds to the real fold of most evidence the same fold of a sheet that fluoresces and, where the exposure is
 /// known and cannot take that up, of a thin one, as far as the score test leaves them hope. The other folds
 /// are then of sheets that emit nothing. Ideal folds are not tried: to their precision another light looks
-/// like a dye, and the rounding of a JPEG like a faint brightener. Returns the logarithm of how many times as
+/// like a dye, and the rounding of a JPEG like a faint brightener. Joined photographs of a sheet that was not
+/// always backed alike are not tried either. Returns the logarithm of how many times as
 /// probable emission makes the facets; `None` if real folds are ruled out by the evidence.
-fn add_emitting(
-    search: &mut Search<Photographs>,
-    (family, photograph): (&Photographs, &Photograph),
-    all: &mut Vec<Tried>,
-) -> Option<f64> {
+fn add_emitting(search: &mut Search<Photographs>, family: &Photographs, all: &mut Vec<Tried>) -> Option<f64> {
+    let first = family.0.first()?;
+    if family.0.iter().any(|one| one.emissions().len() != first.emissions().len()) {
+        return None;
+    }
     let least = all.first()?.ln_weight() + LN_EVIDENCE_NEAR;
     let is_real = |one: &&Tried| one.hypothesis.has_bounces() && !one.hypothesis.imperfection.is_ideal();
     let best = all.iter().find(is_real).filter(|one| one.ln_weight() >= least)?;
@@ -311,9 +309,9 @@ fn add_emitting(
     let residuals = best.solution.at.residuals.clone();
     let broad = search.broad();
     let logit = broad.logit_at(&w.rows(0, broad.basis().ncols()).into_owned());
-    let is_exposure_known = photograph.parts.stated.exposure.is_some();
+    let is_exposure_known = family.0.iter().all(|one| one.parts.stated.exposure.is_some());
     let (mut found, mut ln_gains) = (Vec::new(), vec![0.0]);
-    for (place, emission) in photograph.emissions().iter().enumerate() {
+    for (place, emission) in first.emissions().iter().enumerate() {
         let is_tried = match emission.origin() {
             Some(Origin::Ultraviolet | Origin::Visible) => true,
             Some(Origin::Behind) => is_exposure_known,
@@ -323,14 +321,15 @@ fn add_emitting(
             continue;
         }
         let hypothesis = Hypothesis { emission: Some(place), ..of_best };
-        let model = family.model(hypothesis, search.broad())?;
-        let start = w.clone().resize_vertically(model.unknowns(), 0.0);
+        let (model, plain) = (family.model(hypothesis, broad)?, family.model(of_best, broad)?);
+        let start = model.carried(&plain, &w);
+        let size = model.first().size_of_emission();
         let changes = SIZES.map(|(probability, number)| {
             let mut at = start.clone();
-            at[w.len()] = number;
+            at[size] = number;
             (probability, &residuals - model.residuals(&at))
         });
-        drop(model);
+        drop((model, plain));
         if is_hopeful(&test, &changes, emission, &logit) {
             let tried = search.sort((hypothesis, ln_share), Some(start), ln_best + LN_EVIDENCE_HOPELESS);
             ln_gains.extend(tried.iter().map(|one| one.ln_weight() - ln_best + emission.ln_share(&logit)));
