@@ -1,6 +1,6 @@
 //! Time beside error of the estimates of the samples on standard input, which carry their true reflectance;
-//! one thread. Prints a row of a table: mean RMSE, mean CIEDE2000 (10°, D65), median time of an estimate and
-//! median iterations, for the default estimator and then for the paper's with the weight of smoothness given:
+//! one thread. Prints a row of a table: mean RMSE, mean CIEDE2000 (10°, D65), times of an estimate and mean
+//! iterations, for the default estimator and then for the paper's with the weight of smoothness given:
 //!
 //! `vkernel | vforward --reflectance cc24 --noise-sd 1e-3 | cargo bench --bench estimate -- 1e-3`
 //!
@@ -51,11 +51,16 @@ fn row(batch: &Batch, estimate: impl Fn(&Shot) -> Result<Estimate>) -> Result<St
         scores[0] += rmse(&shot.truth, &made.reflectance);
         scores[1] += d65.delta_e_2000(&shot.truth, &made.reflectance);
     }
-    let [rmse, delta_e] = scores.map(|sum| sum / batch.shots.len() as f64);
-    Ok(format!("{rmse:.4} | {delta_e:.3} | {:.2} | {}", median(times), median(iterations)))
+    let mean = |sum: f64| sum / batch.shots.len() as f64;
+    let [rmse, delta_e] = scores.map(mean);
+    let iterations = mean(iterations.iter().sum());
+    Ok(format!("{rmse:.4} | {delta_e:.3} | {} | {iterations:.0}", spread_of(times)))
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
+/// Mean, median, 95th percentile and worst.
+fn spread_of(mut times: Vec<f64>) -> String {
+    times.sort_by(f64::total_cmp);
+    let mean = times.iter().sum::<f64>() / times.len() as f64;
+    let at = |share: f64| times[(share * (times.len() - 1) as f64).round() as usize];
+    format!("{mean:.2} / {:.2} / {:.2} / {:.1}", at(0.5), at(0.95), at(1.0))
 }

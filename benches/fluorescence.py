@@ -17,7 +17,11 @@ from pathlib import Path
 import numpy as np
 from photographs import Tools, of_real
 
-EXPOSURES = (("exposure known", ["--exposure", "1"]), ("exposure free", ["--exposure", "free"]))
+STATED = (
+    ("exposure known", ["--exposure", "1"]),
+    ("exposure free", ["--exposure", "free"]),
+    ("light unknown", ["--exposure", "free", "--illuminant", "unknown"]),
+)
 SETS = ("colorchecker_sg140", "vrhel_dupont_paint120", "vrhel_nature79", "vrhel_objects_nocloth129")
 PHOTOGRAPHS = ("train/*.json", "real/all_*.json", "real/one_*.json", "real/more/*.json")
 VISIBLE = ("lemon", "yellow")
@@ -69,7 +73,7 @@ def folds(tools, folder, kind, each):
     """Rows of the computed folds of a folder, by what excites their sheets."""
     nm, reflected = curves(folder / ("reflected.csv" if kind is None else "single.csv"))
     total = curves(folder / "total.csv")[1] if kind is None else {}
-    for how, flags in EXPOSURES:
+    for how, flags in STATED:
         found = {}
         for path in sorted(folder.glob("*.ndjson")):
             said, _ = tools.run("vestimate", "-q", *flags, given=path.read_text(encoding="utf-8"))
@@ -112,7 +116,7 @@ def without(tools, shared):
         sheets = shared / "data/reflectance" / f"{spectra}.csv"
         facets = ("--camera", "canon-5d-mark-ii", "--noise-sd", "1e-3")
         samples, _ = tools.run("vforward", "-q", "--reflectance", sheets, *facets, given=scene)
-        for how, flags in EXPOSURES:
+        for how, flags in STATED:
             said, _ = tools.run("vestimate", "-q", *flags, given=samples)
             records = [json.loads(line)["estimate"] for line in said.splitlines()[1:]]
             print(f"| {spectra}, {how} | {len(records)} | {named(records, 'fluorescence')} | {named(records, 'light_through')} |", flush=True)

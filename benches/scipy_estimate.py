@@ -8,6 +8,10 @@ Solves eq. (36) of Deeb et al. within 0 <= r <= 1 from r = 0.5 by two methods of
 trust-constr (minimize). One sheet lit evenly, exposure as the sample says.
 """
 
+import os
+
+os.environ.update(dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"))
+
 import argparse
 import json
 import sys
@@ -77,7 +81,10 @@ def trust_constr(residuals, jacobian, start):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--smoothness", type=float, default=1e-5)
+    parser.add_argument("--times", action="store_true", help="only the times of trf, for samples without estimates")
     args = parser.parse_args()
+    if args.times:
+        return times(args.smoothness)
     print("| sample | method | cost | over the best | ms | RMSE |\n|---|---|---|---|---|---|")
     scene = None
     for line in sys.stdin:
@@ -86,6 +93,19 @@ def main():
             scene = record
         if record["kind"] == "sample":
             compare(scene, record, args.smoothness)
+
+
+def times(smoothness):
+    scene, *samples = map(json.loads, sys.stdin)
+    took, off = [], []
+    for sample in samples:
+        truth = np.array(sample["truth"]["reflectance"])
+        began = time.process_time()
+        found = trf(*problem(scene, sample, smoothness), np.full(len(truth), 0.5))
+        took.append(1e3 * (time.process_time() - began))
+        off.append(np.sqrt(np.mean((found - truth) ** 2)))
+    spread = [np.mean(took), *np.quantile(took, [0.5, 0.95, 1.0])]
+    print(f"| {np.mean(off):.4f} | {' / '.join(f'{ms:.0f}' for ms in spread)} |")
 
 
 def compare(scene, sample, smoothness):

@@ -33,11 +33,11 @@ pub struct Reach {
 
 impl Reach {
     /// For facets with these weights of the terms for each source of the model, facet by term.
-    pub fn of(model: &FacetModel, sources: &[DMatrix<f64>]) -> Self {
+    pub fn of(model: &FacetModel, sources: &[&DMatrix<f64>]) -> Self {
         // Skies of different colours light the facets alike.
         let mut distinct: Vec<&DMatrix<f64>> = Vec::new();
         for source in sources {
-            if !distinct.contains(&source) {
+            if !distinct.contains(source) {
                 distinct.push(source);
             }
         }
@@ -52,24 +52,24 @@ impl Reach {
         // information.
         let Eigen { values, vectors } = Eigen::of_symmetric(square);
         let directions = (q * vectors).transpose();
-        let maps = sources.iter().map(|source| &directions * source).collect();
+        let maps = sources.iter().map(|source| &directions * *source).collect();
         Self { directions, squares: values.as_slice().to_vec(), maps }
     }
 
     /// Data in units of their noise, projected onto the directions in which a reflectance can move them by
-    /// more than `cutoff` of that, and the map to them for each source.
+    /// more than `cutoff` at brightness 1, and the map to them for each source.
     ///
     /// # Arguments
-    /// - `weight`: weight of all facets here, beside their weights in [`Reach::of`];
-    /// - `brightness`: exposure of the facets.
+    /// - `weight`: weight of all facets here, in addition to their weights in [`Reach::of`].
     pub fn compressed(
         &self,
         data: &DVector<f64>,
-        (weight, brightness, cutoff): (f64, f64, f64),
+        weight: f64,
+        cutoff: f64,
     ) -> (DVector<f64>, Vec<DMatrix<f64>>) {
         // Squared singular values below this share of the largest are rounding errors.
         let largest = self.squares.iter().copied().fold(0.0, f64::max);
-        let least = (cutoff / (weight * brightness)).powi(2).max(1e-15 * largest);
+        let least = (cutoff / weight).powi(2).max(1e-15 * largest);
         let kept: Vec<_> = (0..self.squares.len()).filter(|n| self.squares[*n] > least).collect();
         let maps = self.maps.iter().map(|map| weight * map.select_rows(&kept)).collect();
         (self.directions.select_rows(&kept) * data, maps)

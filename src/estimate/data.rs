@@ -133,14 +133,14 @@ impl<'a> FacetData<'a> {
         let model = scene.facets();
         let usable = usable_facets(model, measured)?;
         let channels = model.sources()[0].camera.channels();
-        let brightness = brightness(measured, exposure);
+        let cutoff = cutoff / brightness(measured, exposure);
         let (mut values, mut maps, mut outside, mut peak) = (Vec::new(), Vec::new(), 0.0, 0.0_f64);
         for channel in 0..channels {
             let [data, weights] = channel_of(measured, &usable, channel);
             let data = data.component_mul(&weights);
-            let is_even = weights.max() <= weights.min();
-            let (kept, sources) = if is_even && usable.len() == measured.rgb.len() {
-                scene.reach().compressed(&data, (weights[0], brightness, cutoff))
+            let is_uniform = weights.max() <= weights.min();
+            let (kept, sources) = if is_uniform && usable.len() == measured.rgb.len() {
+                scene.reach().compressed(&data, weights[0], cutoff)
             } else {
                 let weighted = |source: &Source| {
                     let mut facets = source.facets.select_rows(&usable);
@@ -148,7 +148,7 @@ impl<'a> FacetData<'a> {
                     facets
                 };
                 let sources: Vec<_> = model.sources().iter().map(weighted).collect();
-                Reach::of(model, &sources).compressed(&data, (1.0, brightness, cutoff))
+                Reach::of(model, &sources.iter().collect::<Vec<_>>()).compressed(&data, 1.0, cutoff)
             };
             outside += data.norm_squared() - kept.norm_squared();
             peak = peak.max(data.max());

@@ -18,12 +18,12 @@ use crate::solve::forecast::ScoreTest;
 /// changes nothing.
 const LN_ODDS_LEAST: f64 = -2.0;
 /// Bands whose log evidence under all spectra is this far below the best are dropped.
-const LN_EVIDENCE_HOPELESS: f64 = -12.0;
+pub const LN_EVIDENCE_HOPELESS: f64 = -12.0;
 /// Distance of the facets from a sheet without emission, in standard deviations beyond chance, above which
 /// the model linearised there does not predict other sheets.
 const SURPRISE: f64 = 5.0;
 /// Facets are precise if their noise is this many times smaller than that at which classes are distinguished:
-/// a sheet without emission then explains them, or it does not, and only then is emission considered.
+/// for such facets emission is considered only if a sheet without it does not explain them.
 pub const PRECISE: f64 = 10.0;
 /// Probability above which a sheet is reported to fluoresce, together with it: that of a brightener in a
 /// white sheet beforehand. Below it, the facets rather speak against one.
@@ -43,50 +43,55 @@ pub fn is_hopeful(
 /// Facets as data of a fluorescent sheet, and their mode under all spectra.
 pub type Fluorescing<'a> = (FacetData<'a>, Sorted<(), Second>);
 
-/// The bands among `emissions`, the first of which is none, that a sheet may have: indices, and whether the
-/// facets are too far from a sheet without emission to start from it; `plain` is their mode under all spectra
-/// for such a sheet.
+/// Indices of the emissions, the first of which is none, that a sheet may have; `plain` is its mode under all
+/// spectra without emission.
 pub fn possible<H>(
     data: &FacetData,
     emissions: &[Emission],
     plain: &Sorted<H, Second>,
     prior: &Prior,
-) -> (Vec<usize>, bool) {
-    let search = Search::new(data, prior);
-    let ([_, bands @ ..], Some(test)) = (emissions, ScoreTest::at(&plain.solution, search.tempering()))
-    else {
-        return Default::default();
-    };
+) -> Vec<usize> {
+    let tempering = Search::new(data, prior).tempering();
+    let [_, bands @ ..] = emissions else { return Vec::new() };
+    let Some(test) = ScoreTest::at(&plain.solution, tempering) else { return Vec::new() };
     let facets = Facets { data, gaussian: prior.broad() };
     let (logit, unknowns) = facets.split(&plain.solution.w);
     let reflectance = facets.reflectance_at(&plain.solution.w);
     let changes = data.changes_with(bands, (&logit, &reflectance), unknowns.as_slice());
-    let is_unexplained = plain.solution.surprise(search.tempering()) > SURPRISE;
     let is_possible = |(emission, changes): (&Emission, &Vec<_>)| {
         // a free exposure absorbs light from behind
         let is_absorbed = emission.origin() == Some(Origin::Behind) && data.fits_exposure();
-        let may_be = || is_unexplained || is_hopeful(&test, changes, emission, &logit);
+        let may_be = || is_unexplained(plain, tempering) || is_hopeful(&test, changes, emission, &logit);
         !is_absorbed && may_be()
     };
     let possible = iter::zip(bands, &changes).enumerate().filter(|(_, one)| is_possible(*one));
-    (possible.map(|(n, _)| n + 1).collect(), is_unexplained)
+    possible.map(|(n, _)| n + 1).collect()
+}
+
+/// True if the facets are so far from a sheet without emission that it is no start for others.
+fn is_unexplained<H>(plain: &Sorted<H, Second>, tempering: f64) -> bool {
+    plain.solution.surprise(tempering) > SURPRISE
+}
+
+/// True if a sheet with emission explains the facets at the noise at which hypotheses are sorted.
+pub fn explains<H>(data: &FacetData, sorted: &Sorted<H, Second>, tempering: f64) -> bool {
+    data.rms(&sorted.solution.at.residuals) < EXPLAINED * tempering
 }
 
 /// The facets with each possible band that explains them, given their mode without emission, `plain`; there
 /// is hardly ever one.
 pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prior) -> Vec<Fluorescing<'a>> {
     let emissions = data.scene().emissions();
-    let (possible, is_unexplained) = possible(data, emissions, plain, prior);
     let mut best = plain.ln_evidence;
     let mut all = Vec::new();
-    for emission in possible.into_iter().map(|n| &emissions[n]) {
+    for emission in possible(data, emissions, plain, prior).into_iter().map(|n| &emissions[n]) {
         let Some(emitting) = data.emitting(emission) else { continue };
         let mut search = Search::new(&emitting, prior);
         let numbers = plain.solution.w.len() + emission.unknowns();
-        // a mode that does not explain the facets is no useful start
-        let start = (!is_unexplained).then(|| plain.solution.w.clone().resize_vertically(numbers, 0.0));
+        let start = (!is_unexplained(plain, search.tempering()))
+            .then(|| plain.solution.w.clone().resize_vertically(numbers, 0.0));
         if let Some(sorted) = search.sort(((), 0.0), start, best + LN_EVIDENCE_HOPELESS)
-            && emitting.rms(&sorted.solution.at.residuals) < EXPLAINED * search.tempering()
+            && explains(&emitting, &sorted, search.tempering())
         {
             best = best.max(sorted.ln_evidence);
             all.push((emitting, sorted));

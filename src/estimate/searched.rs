@@ -42,12 +42,8 @@ impl<'a> Searched<'a> {
         Some((Self { mixture, alternatives }, trace))
     }
 
-    /// The facets under the alternative of the best mode.
-    pub fn best(&self) -> &FacetData<'a> {
-        self.alternatives.get(self.mixture.best.start.hypothesis)
-    }
-
-    /// Converts to an estimate from `data`, with the errors of another mixture, `off`.
+    /// Converts to an estimate, with the errors of another mixture, `off`; `data` are those of any
+    /// alternative.
     pub fn estimate(&self, data: &FacetData, off: &Mixture<usize, Second>, trace: Trace) -> Estimate {
         let found = &self.mixture;
         let (bands, unknowns) = (data.scene().facets().bands(), data.scene().unknowns());

@@ -8,14 +8,15 @@ use crate::error::Result;
 pub struct CandidateLight {
     /// Relative spectral power.
     pub spectrum: Spectrum,
-    /// Prior probability; those of all candidates but those between others add up to 1.
+    /// Prior probability. Those of all lights that are not between others add up to 1; one between others
+    /// has its part of that of the light before it.
     pub share: f64,
     /// Correlated colour temperature of daylight and black bodies, K.
     pub cct_k: Option<f64>,
     /// True for a daylight, all of which a photograph treats as one light of unknown temperature.
     pub is_any_daylight: bool,
-    /// True for a light between two similar ones, for evidence that tells these apart: then it takes its
-    /// probability from the one before it.
+    /// True for a light between two similar ones that are not. It is tried only if the evidence tells those
+    /// two apart, and then shares the probability of the one before it.
     pub is_between: bool,
 }
 
@@ -26,11 +27,11 @@ struct Kind {
     lights: fn() -> Vec<(String, Option<f64>)>,
 }
 
-/// Spacing of reciprocal temperatures, 1e-6/K: facets of a known sheet do not distinguish neighbours.
-const STEP_MIRED: usize = 2;
-/// One light in this many is not between others: facets accurate to one part in a hundred hardly distinguish
-/// those.
-const BETWEEN: usize = 5;
+/// Spacing of reciprocal temperatures, 1e-6/K: facets accurate to one part in a hundred hardly distinguish
+/// neighbours.
+const STEP_MIRED: usize = 10;
+/// The same with lights between them, which facets of a known sheet do not distinguish.
+const FINE_STEP_MIRED: usize = 2;
 
 /// All that is known of where people fold sheets is that it is by day as often as not: the probabilities are
 /// round numbers, none of them fitted.
@@ -38,7 +39,7 @@ const SOURCES: [Kind; 5] = [
     Kind {
         share: 0.4,
         is_any_daylight: true,
-        lights: || of_temperatures((80..=250).step_by(STEP_MIRED), |cct_k| format!("daylight:{cct_k}")),
+        lights: || of_temperatures((80..=250).step_by(FINE_STEP_MIRED), |cct_k| format!("daylight:{cct_k}")),
     },
     Kind {
         share: 0.1,
@@ -48,7 +49,7 @@ const SOURCES: [Kind; 5] = [
     Kind {
         share: 0.15,
         is_any_daylight: false,
-        lights: || of_temperatures((250..=400).step_by(STEP_MIRED), |cct_k| format!("{cct_k}K")),
+        lights: || of_temperatures((250..=400).step_by(FINE_STEP_MIRED), |cct_k| format!("{cct_k}K")),
     },
     Kind {
         share: 0.2,
@@ -91,16 +92,24 @@ fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Ve
 /// use vfold::spectrum::candidate_lights;
 /// let lights = candidate_lights()?;
 /// assert!(lights.iter().any(|light| light.spectrum.name() == "FL11"));
-/// let usual = lights.iter().filter(|light| !light.is_between);
-/// assert!((usual.map(|light| light.share).sum::<f64>() - 1.0).abs() < 1e-9);
+/// assert!((lights.iter().map(|light| light.share).sum::<f64>() - 1.0).abs() < 1e-9);
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn candidate_lights() -> Result<Vec<CandidateLight>> {
-    spaced(BETWEEN)
+    let mut lights = candidate_lights_and_between()?;
+    lights.retain(|light| !light.is_between);
+    Ok(lights)
 }
 
-/// The same lights, all spaced more closely than the facets of a known sheet can distinguish, and none
-/// between others.
+/// The same lights, and those [between](CandidateLight::is_between) them.
+///
+/// # Errors
+/// As [`candidate_lights`].
+pub fn candidate_lights_and_between() -> Result<Vec<CandidateLight>> {
+    spaced(STEP_MIRED / FINE_STEP_MIRED)
+}
+
+/// The same lights, all of them as close as those between others.
 ///
 /// # Errors
 /// As [`candidate_lights`].

@@ -24,7 +24,9 @@ mod sun;
 mod tables;
 
 pub use cameras::{MeasuredCamera, measured_cameras, measured_sensitivities};
-pub use candidate_lights::{CandidateLight, candidate_lights, equal_candidates, fine_candidate_lights};
+pub use candidate_lights::{
+    CandidateLight, candidate_lights, candidate_lights_and_between, equal_candidates, fine_candidate_lights,
+};
 pub use channels::have_one_peak;
 pub use clear_sky::ClearSky;
 pub use daylight::{daylight_vectors, daylight_weights, in_ultraviolet};

@@ -19,7 +19,7 @@ use vfold::paper::components::FlatSheet;
 use vfold::paper::smooth;
 use vfold::scene::{Setting, other_lights, photographed};
 use vfold::spectrum::{
-    Outside, Spectrum, WavelengthGrid, candidate_lights, equal_candidates, fine_candidate_lights,
+    Outside, Spectrum, WavelengthGrid, candidate_lights_and_between, equal_candidates, fine_candidate_lights,
 };
 use vfold::stream::{
     CameraRecord, EstimateRecord, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace,
@@ -301,7 +301,7 @@ impl<'a> Estimator<'a> {
             None if self.known_fold.as_ref().is_some_and(|known| !known.is_photograph()) => {
                 fine_candidate_lights()?
             }
-            None => candidate_lights()?,
+            None => candidate_lights_and_between()?,
         };
         Candidate::all(&lights, grid, &camera.sensitivities)
     }

@@ -175,6 +175,8 @@ pub struct Emission {
     band: Option<&'static Band>,
     /// All bands that a sheet may have.
     all: &'static [Band],
+    /// False in a light without ultraviolet, under which there is no brightener.
+    has_ultraviolet: bool,
     wavelengths_nm: DVector<f64>,
     /// Power of the light at the usual peak, divided by that in every waveband.
     by_light: DVector<f64>,
@@ -227,7 +229,7 @@ impl Emission {
     #[must_use]
     pub fn all(wavelengths_nm: &[f64], power: &[f64], backing: Backing) -> Vec<Self> {
         let all = backing.bands();
-        let of = |band: Option<&'static Band>| Self::on(wavelengths_nm, power, (band, all));
+        let of = |band: Option<&'static Band>| Self::on(wavelengths_nm, power, (band, all), true);
         iter::once(None).chain(all.iter().map(Some)).map(of).collect()
     }
 
@@ -235,6 +237,7 @@ impl Emission {
         wavelengths_nm: &[f64],
         power: &[f64],
         (band, all): (Option<&'static Band>, &'static [Band]),
+        has_ultraviolet: bool,
     ) -> Self {
         let wavelengths_nm = DVector::from_column_slice(wavelengths_nm);
         let power = DVector::from_column_slice(power);
@@ -243,6 +246,7 @@ impl Emission {
         let mut own = Self {
             band,
             all,
+            has_ultraviolet,
             wavelengths_nm,
             by_light: power.map(f64::recip),
             falling,
@@ -257,10 +261,10 @@ impl Emission {
         own
     }
 
-    /// The same band in light of another relative `power`.
+    /// The same band in light of another relative `power`, with ultraviolet or without.
     #[must_use]
-    pub fn in_light(&self, power: &[f64]) -> Self {
-        Self::on(self.wavelengths_nm.as_slice(), power, (self.band, self.all))
+    pub fn in_light(&self, power: &[f64], has_ultraviolet: bool) -> Self {
+        Self::on(self.wavelengths_nm.as_slice(), power, (self.band, self.all), has_ultraviolet)
     }
 
     /// What excites the band; `None` without emission.
@@ -301,7 +305,10 @@ impl Emission {
         };
         match self.band {
             Some(band) => share(band).ln(),
-            None => (1.0 - self.all.iter().map(share).sum::<f64>()).ln(),
+            None => {
+                let may_be = |band: &&Band| self.has_ultraviolet || band.origin != Origin::Ultraviolet;
+                (1.0 - self.all.iter().filter(may_be).map(share).sum::<f64>()).ln()
+            }
         }
     }
 

@@ -11,9 +11,10 @@ use crate::estimate::Estimate;
 use crate::estimate::alternatives::Alternatives;
 use crate::estimate::data::FacetData;
 use crate::estimate::doubt::EXPLAINED;
+use crate::estimate::emission::{Emission, Origin};
 use crate::estimate::facets::{Facets, Second};
 use crate::estimate::family::Family;
-use crate::estimate::fluorescence_search::{PRECISE, possible};
+use crate::estimate::fluorescence_search::{self, PRECISE, explains, possible};
 use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 use crate::estimate::searched::{Searched, Trace};
@@ -21,20 +22,12 @@ use crate::estimate::searched::{Searched, Trace};
 /// Lights whose log evidence under all spectra is this far below the best are dropped: knowing the class of
 /// spectra rarely changes as much.
 const LN_EVIDENCE_HOPELESS: f64 = -6.0;
-/// The same until lights between them are tried, one of which may have much more evidence.
+/// The same before the lights next to one have been tried: one of those may have far more evidence.
 const LN_EVIDENCE_BETWEEN: f64 = -20.0;
 /// Maximum number of lights under which classes of spectra are distinguished.
 const DISTINCT_ODDS: usize = 48;
-/// Bands of emission are possible if they are in one of this many lights, the most probable ones.
+/// A band of emission is searched if it is possible in one of this many lights, the most probable ones.
 const TESTED: usize = 3;
-
-/// A candidate light, the facets in it for a sheet with or without emission, and their mode under all
-/// spectra.
-struct Lit<'a> {
-    light: usize,
-    data: FacetData<'a>,
-    sorted: Sorted<usize, Second>,
-}
 
 /// The posterior mean reflectance, and the light, for facets in one of `lights`; `start` is an initial
 /// reflectance.
@@ -47,99 +40,153 @@ pub fn estimate(
     prior: &Prior,
     start: Option<&[f64]>,
 ) -> Result<Estimate> {
-    let start = start.map(|start| Facets { data, gaussian: prior.broad() }.set_out_from(start));
     let not_finite = || Error::Numeric("the facets are not finite".to_owned());
-    let (lit, trace) = all(data, lights, prior, start);
-    if lit.is_empty() {
-        return Err(not_finite());
+    let start = start.map(|start| Facets { data, gaussian: prior.broad() }.set_out_from(start));
+    let tempering = Search::new(data, prior).tempering();
+    let unlit = Unlit { data, lights, prior, tempering };
+    let may_emit = tempering <= PRECISE;
+    let mut trace = Trace::new();
+    let mut found = unlit.searched(start.clone(), may_emit, &mut trace).ok_or_else(not_finite)?;
+    if !may_emit && found.0.mixture.best.rms > tempering.max(EXPLAINED) {
+        found = unlit.searched(start, true, &mut trace).ok_or_else(not_finite)?;
     }
-    let lights_of: Vec<usize> = lit.iter().map(|one| one.light).collect();
-    let alternatives = lit.into_iter().map(|Lit { data, sorted, .. }| (data, sorted)).collect();
-    let (found, more) = Searched::among(alternatives, prior).ok_or_else(not_finite)?;
+    let (found, lights_of) = found;
     let mut probabilities = vec![0.0; lights.len()];
     let shares = found.mixture.shares.iter();
     shares.for_each(|(alternative, share)| probabilities[lights_of[*alternative]] += share);
     let light = iter::zip(lights, probabilities)
         .map(|(light, probability)| (light.weighed(probability), light.power.as_slice()));
     let light = Some(InferredLight::of(light));
-    Ok(Estimate { light, ..found.estimate(found.best(), &found.mixture, [trace, more].concat()) })
+    Ok(Estimate { light, ..found.estimate(data, &found.mixture, trace) })
 }
 
-/// All alternatives that remain possible, those without emission first, and the iterations.
-fn all<'a>(
-    data: &FacetData<'a>,
-    lights: &[Candidate],
-    prior: &Prior,
-    start: Option<DVector<f64>>,
-) -> (Vec<Lit<'a>>, Trace) {
-    let mut trace = Trace::new();
-    let plain = Alternatives::of(lights.iter().map(|light| move || light.on(data)));
-    let mut all = in_each(lights, &plain, (prior, start, f64::NEG_INFINITY), &mut trace);
-    let best = |all: &[Lit]| all.iter().map(|one| one.sorted.ln_weight()).fold(f64::NEG_INFINITY, f64::max);
-    let bands = bands(data, lights, &all, prior);
-    // the bands are known to be possible, and so is their absence
-    let emitting = |light: &Candidate, band: usize| {
-        let lit = light.on(data);
-        let emission = data.scene().emissions()[band].in_light(&light.power);
-        lit.emitting(&emission).unwrap_or(lit)
-    };
-    if !bands.is_empty() {
-        all.iter_mut().for_each(|one| one.data = emitting(&lights[one.light], 0));
-    }
-    let exciting = exciting(lights);
-    for band in bands {
-        let emitting = Alternatives::of(exciting.iter().map(|light| move || emitting(light, band)));
-        let lit = in_each(exciting, &emitting, (prior, None, best(&all)), &mut trace);
-        let explained = |one: &Lit| {
-            let tempering = Search::new(&one.data, prior).tempering();
-            one.data.rms(&one.sorted.solution.at.residuals) < EXPLAINED * tempering
-        };
-        all.extend(lit.into_iter().filter(explained));
-    }
-    let least = best(&all) + LN_EVIDENCE_HOPELESS;
-    all.retain(|one| one.sorted.ln_weight() >= least);
-    (all, trace)
+/// Facets in one of several lights.
+struct Unlit<'r, 'a> {
+    data: &'r FacetData<'a>,
+    lights: &'r [Candidate],
+    prior: &'r Prior,
+    /// Factor by which the noise is tempered while lights are sorted.
+    tempering: f64,
 }
 
-/// Lights that may excite a sheet: daylight, which is listed first, as lamps have little of what excites; any
-/// light if there is none.
-fn exciting(lights: &[Candidate]) -> &[Candidate] {
-    match lights.iter().take_while(|light| light.is_any_daylight).count() {
-        0 => lights,
-        days => &lights[..days],
-    }
+/// Facets in a light, for a sheet with or without emission, and their mode under all spectra.
+struct Lit<'a> {
+    /// Index of the light.
+    light: usize,
+    data: FacetData<'a>,
+    sorted: Sorted<usize, Second>,
 }
 
-/// Facets in each light, in order of evidence under all spectra, each started from the result of its
-/// neighbour, without lights that are hopeless beside one of log evidence `best`.
-fn in_each<'a>(
-    lights: &[Candidate],
-    family: &Alternatives<'_, 'a>,
-    (prior, start, best): (&Prior, Option<DVector<f64>>, f64),
-    trace: &mut Trace,
-) -> Vec<Lit<'a>> {
-    let found = lights.iter().map(|_| None).collect();
-    let mut all = Series { lights, search: Search::new(family, prior), found, start, best };
-    let apart: Vec<usize> = (0..lights.len()).filter(|n| !lights[*n].is_between).collect();
-    apart.iter().for_each(|n| all.sort(*n, LN_EVIDENCE_BETWEEN));
-    let ln: Vec<f64> = apart.iter().map(|n| all.ln_weight(*n)).collect();
-    for (n, between) in apart.windows(2).enumerate() {
-        let &[first, next] = between else { continue };
-        if next > first + 1 && is_told_apart(&ln, n, all.best) {
-            all.refine(first, next);
+impl<'a> Unlit<'_, 'a> {
+    /// The mean of all modes, and the light of each alternative; `None` if the facets are not finite.
+    fn searched(
+        &self,
+        start: Option<DVector<f64>>,
+        may_emit: bool,
+        trace: &mut Trace,
+    ) -> Option<(Searched<'a>, Vec<usize>)> {
+        let in_light = Alternatives::of(self.lights.iter().map(|light| move || light.on(self.data)));
+        let every: Vec<usize> = (0..self.lights.len()).collect();
+        let mut all = self.in_each(&in_light, &every, (start, f64::NEG_INFINITY), trace);
+        if may_emit {
+            self.add_emitting(&mut all, trace);
         }
+        let lights_of = all.iter().map(|one| one.light).collect();
+        let alternatives: Vec<_> = all.into_iter().map(|Lit { data, sorted, .. }| (data, sorted)).collect();
+        if alternatives.is_empty() {
+            return None;
+        }
+        let (found, more) = Searched::among(alternatives, self.prior)?;
+        trace.extend(more);
+        Some((found, lights_of))
     }
-    let Series { search, found, best, .. } = all;
-    trace.extend(search.trace);
-    let mut found: Vec<_> = found.into_iter().flatten().collect();
-    found.retain(|one| one.ln_weight() >= best + LN_EVIDENCE_HOPELESS);
-    found.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-    found.truncate(DISTINCT_ODDS);
-    let of = |sorted: Sorted<usize, Second>| {
-        let light = sorted.hypothesis;
-        Lit { light, data: family.get(light).clone(), sorted }
-    };
-    found.into_iter().map(of).collect()
+
+    /// Adds the same for sheets with each band of emission that the most probable lights leave possible.
+    fn add_emitting(&self, all: &mut Vec<Lit<'a>>, trace: &mut Trace) {
+        let scene = self.data.scene();
+        let in_light = |emission: &Emission, light: usize| {
+            emission.in_light(&self.lights[light].power, self.has_ultraviolet(light))
+        };
+        // the most probable one, and others unlike it
+        let is_tested = |(n, one): &(usize, &Lit)| *n == 0 || !self.lights[one.light].is_between;
+        let tested = all.iter().enumerate().filter(is_tested).take(TESTED);
+        let possible: BTreeSet<usize> = tested
+            .flat_map(|(_, Lit { light, data, sorted })| {
+                let emissions: Vec<_> = scene.emissions().iter().map(|one| in_light(one, *light)).collect();
+                possible(data, &emissions, sorted, self.prior)
+            })
+            .collect();
+        let [nothing, ..] = scene.emissions() else { return };
+        if possible.is_empty() {
+            return;
+        }
+        let emitting = |data: FacetData<'a>, emission: &Emission| data.emitting(emission).unwrap_or(data);
+        for Lit { light, data, .. } in all.iter_mut() {
+            *data = emitting(data.clone(), &in_light(nothing, *light));
+        }
+        for emission in possible.into_iter().map(|band| &scene.emissions()[band]) {
+            let lit = |light: usize| emitting(self.lights[light].on(self.data), &in_light(emission, light));
+            let lit = Alternatives::of((0..self.lights.len()).map(|light| move || lit(light)));
+            let is_excited = |light: &usize| {
+                emission.origin() != Some(Origin::Ultraviolet) || self.has_ultraviolet(*light)
+            };
+            let lights: Vec<usize> = (0..self.lights.len()).filter(is_excited).collect();
+            let mut lit = self.in_each(&lit, &lights, (None, most(all)), trace);
+            lit.retain(|one| explains(&one.data, &one.sorted, self.tempering));
+            all.append(&mut lit);
+        }
+        // sheets without emission remain: a band is less probable by itself
+        let least = most(all) + fluorescence_search::LN_EVIDENCE_HOPELESS;
+        let is_plain = |one: &Lit| one.data.emission().is_none_or(|emission| emission.origin().is_none());
+        all.retain(|one| is_plain(one) || one.sorted.ln_weight() >= least);
+    }
+
+    /// True for daylight: lamps have little or no ultraviolet. Of candidates that the user named, each may.
+    fn has_ultraviolet(&self, light: usize) -> bool {
+        self.lights[light].is_any_daylight || !self.lights.iter().any(|light| light.is_any_daylight)
+    }
+
+    /// Facets in each of these lights, in order of evidence under all spectra, each started from the result
+    /// of its neighbour, without lights that are hopeless beside one of log evidence `best`.
+    fn in_each(
+        &self,
+        family: &Alternatives<'_, 'a>,
+        lights: &[usize],
+        (start, best): (Option<DVector<f64>>, f64),
+        trace: &mut Trace,
+    ) -> Vec<Lit<'a>> {
+        let found = self.lights.iter().map(|_| None).collect();
+        let mut all =
+            Series { lights: self.lights, search: Search::new(family, self.prior), found, start, best };
+        let apart: Vec<usize> = lights.iter().copied().filter(|n| !self.lights[*n].is_between).collect();
+        apart.iter().for_each(|n| all.sort(*n, LN_EVIDENCE_BETWEEN));
+        let ln: Vec<f64> = apart.iter().map(|n| all.ln_weight(*n)).collect();
+        for (n, ends) in apart.windows(2).enumerate() {
+            let &[first, next] = ends else { continue };
+            let mut between = first + 1..next;
+            let are_alike = !between.is_empty() && between.all(|n| self.lights[n].is_between);
+            if are_alike && are_told_apart(&ln, n, all.best) {
+                all.refine(first, next);
+            }
+        }
+        let Series { search, found, .. } = all;
+        trace.extend(search.trace);
+        let mut found: Vec<_> = found.into_iter().flatten().collect();
+        found.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        let most = found.first().map_or(best, |first| first.ln_weight().max(best));
+        found.retain(|one| one.ln_weight() >= most + LN_EVIDENCE_HOPELESS);
+        found.truncate(DISTINCT_ODDS);
+        let of = |sorted: Sorted<usize, Second>| {
+            let light = sorted.hypothesis;
+            Lit { light, data: family.get(light).clone(), sorted }
+        };
+        found.into_iter().map(of).collect()
+    }
+}
+
+/// The most evidence of all.
+fn most(all: &[Lit]) -> f64 {
+    all.iter().map(|one| one.sorted.ln_weight()).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Lights in a row, and their modes as far as they were searched.
@@ -168,41 +215,31 @@ impl<F: Family<Hypothesis = usize>> Series<'_, F> {
         }
     }
 
-    /// Searches the lights between two, the first of which shares its probability with them.
+    /// Searches the lights between two, from the more probable one on; the first shares its probability with
+    /// them.
     fn refine(&mut self, first: usize, next: usize) {
-        if let Some(one) = &mut self.found[first] {
-            one.ln_share -= ((next - first) as f64).ln();
-        }
-        let nearest = if self.ln_weight(first) > self.ln_weight(next) { first } else { next };
+        let is_up = self.ln_weight(first) >= self.ln_weight(next);
+        let nearest = if is_up { first } else { next };
         self.start = self.found[nearest].as_ref().map(|one| one.solution.w.clone());
-        (first + 1..next).for_each(|light| self.sort(light, LN_EVIDENCE_HOPELESS));
+        let ln_sharing = ((next - first) as f64).ln();
+        if let Some(one) = &mut self.found[first] {
+            one.ln_share -= ln_sharing;
+        }
+        for n in 1..next - first {
+            self.sort(if is_up { first + n } else { next - n }, LN_EVIDENCE_HOPELESS - ln_sharing);
+        }
     }
 }
 
 /// True if lights between the one at `n` and the next may be among the most probable, and differ from both:
 /// log evidence `ln` bends by more than one per step, as it does where its width is less than a step.
-fn is_told_apart(ln: &[f64], n: usize, best: f64) -> bool {
+fn are_told_apart(ln: &[f64], n: usize, best: f64) -> bool {
     let at = |n: usize| ln.get(n).copied().unwrap_or(f64::NEG_INFINITY);
     let before = |n: usize| n.checked_sub(1).map_or(f64::NEG_INFINITY, at);
     let is_peak = |n: usize| at(n) >= before(n) && at(n) >= at(n + 1);
     let bend = |n: usize| 2.0 * at(n) - before(n) - at(n + 1);
-    let top = at(n).max(at(n + 1));
+    let most = at(n).max(at(n + 1));
     let is_bent = [n, n + 1].into_iter().any(|n| at(n).is_finite() && bend(n) > 1.0);
-    let is_near = top >= best + LN_EVIDENCE_HOPELESS;
-    is_bent && (is_near || (top >= best + LN_EVIDENCE_BETWEEN && (is_peak(n) || is_peak(n + 1))))
-}
-
-/// Indices of the bands of emission that the facets may show.
-fn bands(data: &FacetData, lights: &[Candidate], plain: &[Lit], prior: &Prior) -> BTreeSet<usize> {
-    // as in a stated light, precise facets are explained by a sheet without emission
-    if Search::new(data, prior).tempering() > PRECISE {
-        return BTreeSet::new();
-    }
-    let of = |Lit { light, data: lit, sorted }: &Lit| {
-        let power = &lights[*light].power;
-        let emissions: Vec<_> =
-            data.scene().emissions().iter().map(|emission| emission.in_light(power)).collect();
-        possible(lit, &emissions, sorted, prior).0
-    };
-    plain.iter().take(TESTED).flat_map(of).collect()
+    let is_near = most >= best + LN_EVIDENCE_HOPELESS;
+    is_bent && (is_near || (most >= best + LN_EVIDENCE_BETWEEN && (is_peak(n) || is_peak(n + 1))))
 }

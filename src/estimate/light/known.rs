@@ -110,12 +110,13 @@ impl KnownSheet {
         Ok(Shown { rival, exposure: stated.exposure, scenarios: None, daylight: None, rms })
     }
 
-    /// The `lights` with their posterior probabilities given a fold of it, without those ruled out; and what
-    /// else it reveals.
+    /// The `lights`, but for those between others, with their posterior probabilities given a fold of it,
+    /// without those ruled out; and what else it reveals.
     ///
     /// # Errors
     /// [`Error::Numeric`] if its facets are not finite.
-    pub fn weigh(&self, data: &FacetData, lights: Vec<Candidate>) -> Result<(Vec<Candidate>, Shown)> {
+    pub fn weigh(&self, data: &FacetData, mut lights: Vec<Candidate>) -> Result<(Vec<Candidate>, Shown)> {
+        lights.retain(|light| !light.is_between);
         let seen: Vec<_> = lights.iter().map(|light| self.in_light(&data.in_light(&light.camera))).collect();
         let rms = least_rms(seen.iter().flatten());
         let weighed = |(light, seen): (Candidate, Option<InLight>)| {

@@ -39,8 +39,8 @@ pub struct Candidate {
     pub camera: CameraResponse,
     /// True for a daylight, all of which a photograph treats as one light of unknown temperature.
     pub is_any_daylight: bool,
-    /// True for a light between two similar ones, tried if evidence tells these apart: it then takes its
-    /// probability from the one before it.
+    /// True for a light between two similar ones that are not. It is tried only if the evidence tells those
+    /// two apart, and then shares the probability of the one before it.
     pub is_between: bool,
     /// Logarithm of the exposure of a picture in it, if a known fold reveals it.
     pub exposure: Option<Normal>,

@@ -58,11 +58,9 @@ impl Others {
     /// Empty if the built-in lights do not cover the wavelengths.
     pub fn lights(&self) -> &[Candidate] {
         self.lights.get_or_init(|| {
-            let apart = candidate_lights().and_then(|mut all| {
-                all.retain(|light| !light.is_between);
-                Candidate::all(&all, &self.grid, &self.sensitivities)
-            });
-            apart.unwrap_or_default()
+            let all =
+                candidate_lights().and_then(|all| Candidate::all(&all, &self.grid, &self.sensitivities));
+            all.unwrap_or_default()
         })
     }
 }

@@ -27,9 +27,9 @@ impl Member<'_> {
 
     /// Index, among all numbers, of the size of the sheet's emission, if it has any.
     #[must_use]
-    pub fn size_of_emission(&self) -> usize {
+    pub fn size_of_emission(&self) -> Option<usize> {
         let [.., emission, _] = self.model.layout();
-        self.places[emission]
+        self.places.get(emission).copied()
     }
 
     /// Index, among all numbers, of the counterpart of the `n`-th of another model, if this one has it: lamps

@@ -292,12 +292,13 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
 /// Adds to the real fold of most evidence the same fold of a sheet that fluoresces and, where the exposure is
 /// known and cannot take that up, of a thin one, as far as the score test leaves them hope. The other folds
 /// are then of sheets that emit nothing. Ideal folds are not tried: to their precision another light looks
-/// like a dye, and the rounding of a JPEG like a faint brightener. Joined photographs of a sheet that was not
-/// always backed alike are not tried either. Returns the logarithm of how many times as
-/// probable emission makes the facets; `None` if real folds are ruled out by the evidence.
+/// like a dye, and the rounding of a JPEG like a faint brightener. Joined photographs share the emission, as
+/// a fraction of white in the light of each, and are tried if the sheet was backed alike in all.
+///
+/// Returns the logarithm of how many times as probable emission makes the facets; `None` if it is not tried.
 fn add_emitting(search: &mut Search<Photographs>, family: &Photographs, all: &mut Vec<Tried>) -> Option<f64> {
     let first = family.0.first()?;
-    if family.0.iter().any(|one| one.emissions().len() != first.emissions().len()) {
+    if family.0.iter().any(|one| one.parts.stated.backing != first.parts.stated.backing) {
         return None;
     }
     let least = all.first()?.ln_weight() + LN_EVIDENCE_NEAR;
@@ -310,6 +311,7 @@ fn add_emitting(search: &mut Search<Photographs>, family: &Photographs, all: &mu
     let broad = search.broad();
     let logit = broad.logit_at(&w.rows(0, broad.basis().ncols()).into_owned());
     let is_exposure_known = family.0.iter().all(|one| one.parts.stated.exposure.is_some());
+    let plain = family.model(of_best, broad)?;
     let (mut found, mut ln_gains) = (Vec::new(), vec![0.0]);
     for (place, emission) in first.emissions().iter().enumerate() {
         let is_tried = match emission.origin() {
@@ -321,15 +323,15 @@ fn add_emitting(search: &mut Search<Photographs>, family: &Photographs, all: &mu
             continue;
         }
         let hypothesis = Hypothesis { emission: Some(place), ..of_best };
-        let (model, plain) = (family.model(hypothesis, broad)?, family.model(of_best, broad)?);
+        let model = family.model(hypothesis, broad)?;
         let start = model.carried(&plain, &w);
-        let size = model.first().size_of_emission();
+        let size = model.first().size_of_emission()?;
         let changes = SIZES.map(|(probability, number)| {
             let mut at = start.clone();
             at[size] = number;
             (probability, &residuals - model.residuals(&at))
         });
-        drop((model, plain));
+        drop(model);
         if is_hopeful(&test, &changes, emission, &logit) {
             let tried = search.sort((hypothesis, ln_share), Some(start), ln_best + LN_EVIDENCE_HOPELESS);
             ln_gains.extend(tried.iter().map(|one| one.ln_weight() - ln_best + emission.ln_share(&logit)));

@@ -99,7 +99,7 @@ impl SceneModel {
     /// How far reflectances can move its facets if all are known equally well.
     pub(in crate::estimate) fn reach(&self) -> &Reach {
         self.reach.get_or_init(|| {
-            let sources: Vec<_> = self.facets.sources().iter().map(|source| source.facets.clone()).collect();
+            let sources: Vec<_> = self.facets.sources().iter().map(|source| &source.facets).collect();
             Arc::new(Reach::of(&self.facets, &sources))
         })
     }
