@@ -165,7 +165,7 @@ impl<'a> Unlit<'_, 'a> {
             let &[first, next] = ends else { continue };
             let mut between = first + 1..next;
             let are_alike = !between.is_empty() && between.all(|n| self.lights[n].is_between);
-            if are_alike && are_told_apart(&ln, n, all.best) {
+            if are_alike && are_distinguished(&ln, n, all.best) {
                 all.refine(first, next);
             }
         }
@@ -233,7 +233,7 @@ impl<F: Family<Hypothesis = usize>> Series<'_, F> {
 
 /// True if lights between the one at `n` and the next may be among the most probable, and differ from both:
 /// log evidence `ln` bends by more than one per step, as it does where its width is less than a step.
-fn are_told_apart(ln: &[f64], n: usize, best: f64) -> bool {
+fn are_distinguished(ln: &[f64], n: usize, best: f64) -> bool {
     let at = |n: usize| ln.get(n).copied().unwrap_or(f64::NEG_INFINITY);
     let before = |n: usize| n.checked_sub(1).map_or(f64::NEG_INFINITY, at);
     let is_peak = |n: usize| at(n) >= before(n) && at(n) >= at(n + 1);

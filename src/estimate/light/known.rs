@@ -9,7 +9,6 @@ use std::iter;
 use nalgebra::DVector;
 
 use super::photograph::{LN_HOPELESS, daylight_of_known};
-use super::stated::LN_ODDS;
 use super::{Candidate, Others, ShownScenarios};
 use crate::error::{Error, Result};
 use crate::estimate::data::FacetData;
@@ -106,7 +105,7 @@ impl KnownSheet {
         let named = iter::zip(others, &in_others)
             .filter_map(|(light, one)| Some((light.name.clone(), one.as_ref()?.ln_evidence(rms)?)));
         let ln_stated = stated.ln_evidence(rms).ok_or_else(not_finite)?;
-        let rival = Rival::of(named, ln_stated, LN_ODDS);
+        let rival = Rival::of(named, ln_stated, Priors::USUAL.ln_odds_of_statement());
         Ok(Shown { rival, exposure: stated.exposure, scenarios: None, daylight: None, rms })
     }
 

@@ -13,14 +13,12 @@ use crate::camera::CameraResponse;
 use crate::estimate::data::FacetData;
 use crate::estimate::facets::{Facets, Second};
 use crate::estimate::fluorescence_search::Fluorescing;
+use crate::estimate::photograph::priors::Priors;
 use crate::estimate::prior::Prior;
 use crate::estimate::rival::{LN_AHEAD, Rival};
 use crate::estimate::search::{Search, Sorted};
 use crate::spectrum::{WavelengthGrid, candidate_lights};
 
-/// Log evidence ratio that outweighs a statement: nineteen to one, rounded, as one statement in twenty is
-/// mistaken.
-pub(super) const LN_ODDS: f64 = 3.0;
 /// A stated light is not questioned if facets, with the noise at which hypotheses are sorted, are no more
 /// improbable in it than this, in standard deviations over known sheets: what is that usual needs no other
 /// light to explain it.
@@ -113,7 +111,7 @@ pub fn rival(
     let ln_stated = by_bands.fold(search.ln_evidence_by_classes(stated)?, |sum, own| {
         sum.max(own) + (-(sum - own).abs()).exp().ln_1p()
     });
-    Rival::of(by_classes, ln_stated, LN_ODDS)
+    Rival::of(by_classes, ln_stated, Priors::USUAL.ln_odds_of_statement())
 }
 
 /// The reflectance that looks the same to the camera in another light: a starting point.

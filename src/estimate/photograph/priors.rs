@@ -190,6 +190,12 @@ impl Priors {
         Normal { mean: 0.0, sd: self.exposure_sd }
     }
 
+    /// Logarithm of the odds that a statement is right: other values must make data more probable by more.
+    #[must_use]
+    pub fn ln_odds_of_statement(&self) -> f64 {
+        ((1.0 - self.mistake_share) / self.mistake_share).ln()
+    }
+
     /// Unevenness of sunlight over the panels: a quarter of the shared model error.
     #[must_use]
     pub const fn unevenness(&self) -> Normal {
