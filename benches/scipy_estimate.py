@@ -4,6 +4,8 @@
     vkernel --mesh facets | vforward --reflectance cc24 | vestimate --prior smooth |
         python3 benches/scipy_estimate.py [--smoothness 1e-5]
 
+    vkernel --mesh facets | vforward --reflectance cc24 | python3 benches/scipy_estimate.py --times
+
 Solves eq. (36) of Deeb et al. within 0 <= r <= 1 from r = 0.5 by two methods of SciPy: trf (least_squares) and
 trust-constr (minimize). One sheet lit evenly, exposure as the sample says.
 """
