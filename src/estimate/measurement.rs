@@ -20,7 +20,7 @@ use super::shadow::Shadow;
 use super::taking::{Stated, doubts_of_taking};
 use super::unknowns::{SceneModel, Unknown};
 use super::verdict::{
-    Doubt, EXPLAINED, Verdict, beyond_chance, other_angle, other_exposure, unusual_exposure, unusual_findings,
+    Doubt, EXPLAINED, Verdict, beyond_chance, ignored_findings, unusual_exposure, unusual_findings,
 };
 use super::{Estimate, Exposure, map};
 use crate::error::{Error, Result};
@@ -179,13 +179,10 @@ impl<'a> Inference<'a> {
         let real = real.ok_or_else(|| Error::Numeric("no photograph".to_owned()))?;
         doubts.splice(0..0, self.doubt_of_light(light));
         doubts.extend(camera.map(|camera| camera.doubt_of_camera(&self.stated.camera)));
-        if !photograph.by_chart {
-            doubts.extend(other_exposure(facets.exposure, &real));
-        }
         if self.is_auto {
             return Ok(self.judged(facets, real, doubts));
         }
-        doubts.extend(other_angle(&real, parts.stated.angle_deg));
+        doubts.extend(ignored_findings(&real.findings));
         let estimate = Estimate { without_bounces: real.without_bounces, ..ideal()? };
         Ok(self.judged(facets, estimate, doubts))
     }

@@ -19,19 +19,67 @@ impl Normal {
     }
 }
 
-/// Prior of an unknown of a photograph.
+/// Prior of an unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expectation {
     /// Unit of the value on its [`Scale`].
     pub unit: f64,
     /// Its prior there.
     pub normal: Normal,
+    /// Heaviness of its tails, t: they are those of sinh(tw) / t, which is w near 0; 0 for a normal number.
+    ///
+    /// # Source
+    /// M. C. Jones, A. Pewsey, "Sinh-arcsinh distributions", *Biometrika* 96 (2009), p. 761.
+    pub tail: f64,
+}
+
+impl Expectation {
+    /// The same with tails of this heaviness.
+    #[must_use]
+    pub fn with_tail(self, tail: f64) -> Self {
+        Self { tail, ..self }
+    }
+
+    /// The number on the scale at the standard normal number `w`, with its first and second derivative.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::estimate::unknowns::{Expectation, Normal};
+    /// let angle = Expectation::from(Normal { mean: 45.0, sd: 1.2 }).with_tail(0.5);
+    /// assert!((angle.number(1.0)[0] - 46.25).abs() < 0.01);
+    /// assert!(angle.number(3.0)[0] > 50.0);
+    /// ```
+    #[must_use]
+    pub fn number(&self, w: f64) -> [f64; 3] {
+        let (Normal { mean, sd }, t) = (self.normal, self.tail);
+        if t > 0.0 {
+            let (sinh, cosh) = ((t * w).sinh(), (t * w).cosh());
+            [mean + sd * sinh / t, sd * cosh, sd * t * sinh]
+        } else {
+            [mean + sd * w, sd, 0.0]
+        }
+    }
+
+    /// Value at `w`, a standard normal number, and its derivative.
+    #[must_use]
+    pub fn value(&self, scale: Scale, w: f64) -> (f64, f64) {
+        let [number, by_w, _] = self.number(w);
+        let (value, slope) = scale.value(number);
+        (self.unit * value, self.unit * slope * by_w)
+    }
+
+    /// The standard normal number for a value.
+    #[must_use]
+    pub fn normal_of(&self, scale: Scale, value: f64) -> f64 {
+        let x = (scale.normal(value / self.unit) - self.normal.mean) / self.normal.sd;
+        if self.tail > 0.0 { (self.tail * x).asinh() / self.tail } else { x }
+    }
 }
 
 impl From<Normal> for Expectation {
     /// In the unit of the unknown itself.
     fn from(normal: Normal) -> Self {
-        Self { unit: 1.0, normal }
+        Self { unit: 1.0, normal, tail: 0.0 }
     }
 }
 

@@ -6,10 +6,11 @@
 
 use std::{fmt, iter};
 
+use super::Estimate;
 pub use super::doubt::{Doubt, EXPLAINED, Level};
+use super::photograph::Finding;
 use super::photograph::priors::Priors;
-use super::unknowns::{ANGLE, EXPOSURE, Normal};
-use super::{Estimate, Exposure, Fitted};
+use super::unknowns::Normal;
 use crate::error::{Error, Result};
 
 /// Reduced chi above which the scene cannot be right.
@@ -31,10 +32,6 @@ const EXPOSURE_WRONG: f64 = 3.25;
 const DARK_SHEET: f64 = 0.2;
 /// Lower bound on the brightest waveband of any sheet.
 const DARKEST_SHEET: f64 = 0.03;
-/// Facets contradict a statement if it is this many standard deviations away; an exposure must in addition
-/// differ by this logarithm of a factor.
-const SURE: f64 = 3.0;
-const EXPOSURE_APART: f64 = 0.1;
 /// Share of unexplained light, beyond noise, above which a spectrum fitted to the rest is meaningless.
 const UNEXPLAINED: f64 = 0.3;
 /// Possible causes if facets are not as they should be.
@@ -146,39 +143,22 @@ pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doub
     })
 }
 
-/// A stated exposure that the facets contradict.
-#[must_use]
-pub fn other_exposure(stated: Exposure, found: &Estimate) -> Option<Doubt> {
-    let Fitted { value, sd, .. } = found.fitted.iter().find(|one| one.unknown == &EXPOSURE)?;
-    let stated = stated.known()?;
-    let apart = (value / stated).ln().abs();
-    (apart > EXPOSURE_APART && apart * value > SURE * sd).then(|| {
-        let because = format!("the facets show an exposure of {value:.2} ± {sd:.2}, not {stated} as stated");
-        Doubt::new(
-            because,
-            "leave --exposure out, or measure it again with a white card or chart in the sheet's light",
-        )
-    })
-}
-
-/// A stated angle that the facets contradict, and that the estimate does not correct.
-#[must_use]
-pub fn other_angle(found: &Estimate, stated_deg: f64) -> Option<Doubt> {
-    let Fitted { value, sd, .. } = found.fitted.iter().find(|one| one.unknown == &ANGLE)?;
-    ((value - stated_deg).abs() > SURE * sd).then(|| {
-        let because = format!(
-            "a fold open by {value:.1} ± {sd:.1}°, not {stated_deg}° as stated, explains the facets better"
-        );
-        Doubt::new(because, "measure the angle again, or leave --fit out")
-    })
-}
-
 /// Findings about the photograph beyond the usual errors of users and differences of sheets, so that allowing
 /// for them is not enough.
 #[must_use]
 pub fn unusual_findings(estimate: &Estimate) -> Vec<Doubt> {
     let unusual = estimate.findings.iter().filter(|finding| finding.is_unusual);
     unusual.map(|finding| Doubt::new(format!("{}, more than usual", finding.what), finding.remedy)).collect()
+}
+
+/// Findings about the photograph that the estimate does not allow for.
+#[must_use]
+pub fn ignored_findings(findings: &[Finding]) -> Vec<Doubt> {
+    let doubt = |finding: &Finding| {
+        let because = format!("{}, which the estimate does not allow for", finding.what);
+        Doubt::new(because, format!("{}, or leave --fit out", finding.remedy))
+    };
+    findings.iter().map(doubt).collect()
 }
 
 /// Panels between which probably no light bounces.

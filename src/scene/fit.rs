@@ -9,6 +9,7 @@ use super::photograph::eye;
 use super::{FoldSetting, Setting};
 use crate::error::{Error, Result};
 use crate::estimate::photograph::conditions::Daylight;
+use crate::estimate::photograph::priors::Priors;
 use crate::estimate::unknowns::{EXPOSURE, FoldInLight, SceneModel, Unknown};
 use crate::stream::{Optics, needs_fold};
 
@@ -57,20 +58,20 @@ impl FoldSetting {
     /// The fold in its light; other folds are solved to `tolerance` or the scene's tolerance, whichever is
     /// larger.
     fn in_light(&self, tolerance: f64) -> Result<FoldInLight> {
-        let Optics { grid, camera, illuminants, sky } = self.optics()?;
+        let Optics { grid, camera, illuminants, .. } = self.optics()?;
         let sun = DVector::from_column_slice(&illuminants[0].power);
         // pictures in several lights have several suns
         let daylight_vectors = eye::vectors(grid)?;
         let daylight = if illuminants.len() == 1 { Daylight::of(&daylight_vectors, &sun) } else { None };
+        let stated = self.stated(&Priors::USUAL, camera.sensitivities.len(), daylight);
         Ok(FoldInLight {
             sun_power: sun,
             daylight_vectors,
-            daylight,
+            stated,
             fold: self.fold,
             response: self.response.clone(),
             tolerance: self.tolerance.map(|own| own.max(tolerance)),
             lighting: self.lighting()?,
-            has_sky_illuminant: sky.is_some(),
             card: self.card.clone(),
             grid: grid.clone(),
             sensitivities: camera.sensitivities.clone(),

@@ -5,6 +5,10 @@ use super::stated_light::{StatedLight, StatedSky};
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
 use crate::estimate::emission::Backing;
+use crate::estimate::photograph::StatedScene;
+use crate::estimate::photograph::conditions::{Daylight, SkyKind};
+use crate::estimate::photograph::day::Day;
+use crate::estimate::photograph::priors::Priors;
 use crate::forward::{Card, FacetModel, Lighting};
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::mesh::{Mesh, respond};
@@ -93,6 +97,41 @@ impl FoldSetting {
             )
         };
         self.optics.as_ref().ok_or_else(missing)
+    }
+
+    /// Everything stated about the fold and its light, with an unknown exposure.
+    pub(super) fn stated(
+        &self,
+        priors: &'static Priors,
+        channels: usize,
+        daylight: Option<Daylight>,
+    ) -> StatedScene {
+        let Self { fold, light, .. } = self;
+        let sun = light.towards();
+        StatedScene {
+            priors,
+            exposure: None,
+            metered: None,
+            by_paper: None,
+            by_chart: false,
+            channels,
+            angle_deg: fold.angle_deg(),
+            angle_sd_deg: self.angle_sd_deg.unwrap_or(priors.angle_sd_deg),
+            tilt_deg: light.tilt_deg(),
+            daylight,
+            is_daylight_assumed: self.is_daylight_assumed,
+            sky: Some(light.sky()).filter(|sky| *sky > 0.0),
+            sky_kind: self.sky.as_ref().map(|sky| SkyKind {
+                is_overcast: sky.is_overcast,
+                elevation_deg: sky.zenith.dot(&sun).clamp(-1.0, 1.0).asin().to_degrees(),
+                is_zenith_stated: sky.is_zenith_stated(),
+            }),
+            sun: light.sun(),
+            has_sky_illuminant: self.optics.as_ref().is_some_and(|optics| optics.sky.is_some()),
+            backing: self.backing,
+            day: Day::Clear,
+            shown: None,
+        }
     }
 
     /// Sun and sky as the camera responds to them.

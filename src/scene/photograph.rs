@@ -20,8 +20,7 @@ use super::{FoldSetting, StatedSky, metered};
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
 use crate::estimate::photograph::chebyshev::{NODES, nodes};
-use crate::estimate::photograph::conditions::{Daylight, SkyKind};
-use crate::estimate::photograph::day::Day;
+use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::parts::{Change, Parts, Radiance, Sunlit, Surroundings};
 use crate::estimate::photograph::priors::Priors;
 use crate::estimate::photograph::{StatedScene, Unmodelled};
@@ -133,7 +132,7 @@ impl<'a> PhotographedFold<'a> {
     }
 
     fn of_picture(&self, picture: &Picture) -> Result<std::result::Result<Parts, Unmodelled>> {
-        let FoldSetting { fold, angle_sd_deg, light, sky, is_daylight_assumed, .. } = self.setting;
+        let FoldSetting { fold, light, .. } = self.setting;
         let Picture { measured, exposure, by_chart, white_per_klx, by_paper, .. } = *picture;
         let pose = picture.framing.as_ref().map(|framing| Pose::of(framing, fold)).transpose()?.flatten();
         let Some(pose) = pose else { return Ok(Err(Unmodelled::NoPose)) };
@@ -145,8 +144,8 @@ impl<'a> PhotographedFold<'a> {
         let bins = Bins::new(fold, measured, &pose);
         let Some(values) = bins.values() else { return Ok(Err(Unmodelled::NoFacets)) };
         let sun = light.towards();
+        let daylight = Daylight::of(&eye.daylight, &eye.sun);
         let stated = StatedScene {
-            priors: self.priors,
             exposure,
             metered: white_per_klx
                 .zip(optics.illuminants.first())
@@ -156,23 +155,7 @@ impl<'a> PhotographedFold<'a> {
                 sd: (sd / exposure).hypot(self.priors.exposure_shown_sd),
             }),
             by_chart: by_chart && exposure.is_some(),
-            channels: values.ncols(),
-            angle_deg: fold.angle_deg(),
-            angle_sd_deg: angle_sd_deg.unwrap_or(self.priors.angle_sd_deg),
-            tilt_deg: light.tilt_deg(),
-            daylight: Daylight::of(&eye.daylight, &eye.sun),
-            is_daylight_assumed: *is_daylight_assumed,
-            sky: Some(light.sky()).filter(|sky| *sky > 0.0),
-            sky_kind: sky.map(|sky| SkyKind {
-                is_overcast: sky.is_overcast,
-                elevation_deg: sky.zenith.dot(&sun).clamp(-1.0, 1.0).asin().to_degrees(),
-                is_zenith_stated: sky.is_zenith_stated(),
-            }),
-            sun: light.sun(),
-            has_sky_illuminant: optics.sky.is_some(),
-            backing: self.setting.backing,
-            day: Day::Clear,
-            shown: None,
+            ..self.setting.stated(self.priors, values.ncols(), daylight)
         };
         let sheets = || sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref());
         let (light, sheets) = rayon::join(|| self.light(&pose, &bins), sheets);

@@ -114,7 +114,7 @@ fn what_the_facets_do_not_tell_is_said() {
         "{}",
         run.stderr
     );
-    assert!((number(&fit["angle_deg"]["sd"]) - 2.0).abs() < 0.2);
+    assert!((number(&fit["angle_deg"]["sd"]) - 1.2).abs() < 0.2);
 }
 
 /// The error to expect is what simulated estimates have.

@@ -35,7 +35,7 @@ pub fn of_unknowns(fitted: &[Fitted], stated: &StatedScene, hypothesis: Hypothes
     let found = |one: &Fitted| {
         let number = numbers.iter().find(|number| number.unknown == one.unknown)?;
         let (symptom, from_usual) = (number.effect.symptom.as_ref()?, number.normal(one.value).abs());
-        let off = (one.value - (symptom.ideal)(stated)).abs();
+        let off = (one.value - (symptom.ideal)(stated)?).abs();
         let is_noteworthy = one.supported && off >= symptom.least && off > SURE * one.sd;
         is_noteworthy
             .then(|| (off / one.sd, from_usual > UNUSUAL, (symptom.words)(one, stated), symptom.remedy))

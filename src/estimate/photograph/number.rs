@@ -3,9 +3,7 @@
 use super::conditions::StatedScene;
 use super::day::Day;
 use super::hypotheses::{Hypothesis, Mistake};
-use crate::estimate::unknowns::{
-    ANGLE, EVEN_SKY, Effect, Expectation, Known, Normal, SKY_COLOUR, TABLE, Unknown,
-};
+use crate::estimate::unknowns::{ANGLE, EVEN_SKY, Effect, Expectation, Known, SKY_COLOUR, TABLE, Unknown};
 
 /// An unknown with its prior in a photograph of some imperfection.
 #[derive(Clone, Copy)]
@@ -15,7 +13,6 @@ pub struct Number {
     /// Its effect.
     pub effect: &'static Effect,
     prior: Expectation,
-    tail: f64,
     matters: bool,
 }
 
@@ -39,12 +36,8 @@ impl Number {
                     Some(Mistake::Sky) => **unknown == EVEN_SKY || **unknown == SKY_COLOUR,
                     Some(Mistake::Exposure | Mistake::NoFold) | None => false,
                 };
-            let tail = match known {
-                Known::Stated | Known::Metered => stated.priors.stated_tail,
-                Known::Imperfection => stated.priors.amount_tail,
-                Known::Usual | Known::Shown | Known::Nominal | Known::OfImperfection => 0.0,
-            };
-            Some(Self { unknown, effect, prior, tail, matters })
+            let prior = prior.with_tail(known.tail(stated.priors));
+            Some(Self { unknown, effect, prior, matters })
         };
         TABLE.iter().filter_map(number).collect()
     }
@@ -55,25 +48,15 @@ impl Number {
         self.matters
     }
 
-    /// Value at `w`, a standard normal number, and its derivative, in the unit of the unknown. Heavy tails
-    /// are those of sinh(tw) / t, which is w near 0.
-    ///
-    /// # Source
-    /// M. C. Jones, A. Pewsey, "Sinh-arcsinh distributions", *Biometrika* 96 (2009), p. 761.
+    /// Value at `w`, a standard normal number, and its derivative, in the unit of the unknown.
     #[must_use]
     pub fn at(&self, w: f64) -> (f64, f64) {
-        let Expectation { unit, normal: Normal { mean, sd } } = self.prior;
-        let t = self.tail;
-        let (x, by_w) = if t > 0.0 { ((t * w).sinh() / t, (t * w).cosh()) } else { (w, 1.0) };
-        let (value, by_x) = self.unknown.scale.value(mean + sd * x);
-        (unit * value, unit * by_x * sd * by_w)
+        self.prior.value(self.unknown.scale, w)
     }
 
     /// The standard normal number for a value.
     #[must_use]
     pub fn normal(&self, value: f64) -> f64 {
-        let Expectation { unit, normal: Normal { mean, sd } } = self.prior;
-        let x = (self.unknown.scale.normal(value / unit) - mean) / sd;
-        if self.tail > 0.0 { (self.tail * x).asinh() / self.tail } else { x }
+        self.prior.normal_of(self.unknown.scale, value)
     }
 }

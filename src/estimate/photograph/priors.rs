@@ -206,6 +206,6 @@ impl Priors {
     /// some almost absent, in a few several times as large.
     #[must_use]
     pub const fn amount(&self, amount: f64) -> Expectation {
-        Expectation { unit: amount, normal: Normal { mean: ONE, sd: self.amount_sd } }
+        Expectation { unit: amount, normal: Normal { mean: ONE, sd: self.amount_sd }, tail: 0.0 }
     }
 }

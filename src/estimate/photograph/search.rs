@@ -391,7 +391,8 @@ fn all_findings(
     let hypothesis = found.best.start.hypothesis;
     let imperfection = hypothesis.imperfection;
     let mut findings: Vec<_> = day.and_then(of_day).into_iter().collect();
-    findings.extend(of_unknowns(&seen.fitted, &hypothesis.stated(&parts.stated), hypothesis));
+    let stated = StatedScene { day: hypothesis.day, ..parts.stated };
+    findings.extend(of_unknowns(&seen.fitted, &stated, hypothesis));
     if !imperfection.is_ideal() {
         findings.extend(corners::findings(
             &seen.shifts,

@@ -16,14 +16,14 @@ pub static ANGLE: Unknown = Unknown {
     flag: &Flag { value: "angle", help: "Angle between the panels" },
     range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
-    role: Role::Sources { prior, enter },
+    role: Role::Sources { enter },
     photograph: Some(Effect {
         whose: Whose::Scene,
         known: |_| Known::Stated,
-        prior: of_photograph,
+        prior,
         set: |conditions, value| conditions.angle_deg = value,
         symptom: Some(Symptom {
-            ideal: |stated| stated.angle_deg,
+            ideal: |stated| Some(stated.angle_deg),
             least: 0.4,
             words: |Fitted { value, sd, .. }, stated| {
                 format!("the fold is open by {value:.1} ± {sd:.1}°, not {}° as stated", stated.angle_deg)
@@ -33,19 +33,8 @@ pub static ANGLE: Unknown = Unknown {
     }),
 };
 
-/// Standard deviation of an angle, degrees, or a tenth of the angle if that is less: the error of a
-/// protractor and of a sheet that springs back. It is also the spacing of the folds between which light is
-/// interpolated.
-const SD_DEG: f64 = 2.0;
-
-fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
-    let angle_deg = scene.fold.angle_deg();
-    let sd = SD_DEG.min(0.1 * angle_deg);
-    if angle_deg + sd > 180.0 {
-        return Err(Error::field("geometry.angle_deg", format!("{angle_deg} is flat: no angle to fit")));
-    }
-    Ok(Some(Normal { mean: angle_deg, sd }))
-}
+/// Largest distance between the folds among which light is interpolated, as a share of the angle.
+const APART_MOST: f64 = 0.1;
 
 /// The fold is one of three, or lies between them.
 fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources) -> Result<()> {
@@ -53,7 +42,11 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
         let problem = "--fit angle needs a scene from vkernel --mesh auto; make it again";
         return Err(Error::field("accuracy.mesh", problem));
     };
-    let nodes = [mean - sd, mean, mean + sd];
+    let apart = (2.0 * sd).min(APART_MOST * mean);
+    if mean + apart > 180.0 {
+        return Err(Error::field("geometry.angle_deg", format!("{mean} is flat: no angle to fit")));
+    }
+    let nodes = [mean - apart, mean, mean + apart];
     let state = |(at, node): (usize, &f64)| {
         let fold = scene.fold.with_angle_deg(*node)?;
         // the stated fold is already solved
@@ -64,6 +57,6 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     Ok(())
 }
 
-fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
+fn prior(stated: &StatedScene) -> Option<Expectation> {
     Some(Normal { mean: stated.angle_deg, sd: stated.angle_sd_deg }.into())
 }

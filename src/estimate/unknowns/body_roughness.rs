@@ -19,7 +19,7 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
         prior,
         set: |conditions, value| conditions.body_roughness_deg = value,
         symptom: Some(Symptom {
-            ideal: |_| 0.0,
+            ideal: |_| Some(0.0),
             least: 10.0,
             words: |_, _| "the sheet is rough".to_owned(),
             remedy: "include a colour chart or a white card",

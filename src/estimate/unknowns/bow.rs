@@ -23,7 +23,7 @@ pub static BOW: Unknown = Unknown {
 
 /// For both kinds of bow.
 pub(super) const BOWED: Symptom = Symptom {
-    ideal: |_| 0.0,
+    ideal: |_| Some(0.0),
     least: 1.0,
     words: |_, _| "the panels bow".to_owned(),
     remedy: "hold them flat with stiff card behind them",

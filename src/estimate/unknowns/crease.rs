@@ -18,7 +18,7 @@ pub static CREASE: Unknown = Unknown {
         prior,
         set: |conditions, value| conditions.crease_radius = value,
         symptom: Some(Symptom {
-            ideal: |_| 0.0,
+            ideal: |_| Some(0.0),
             least: 0.008,
             words: |_, _| "the crease is rounded".to_owned(),
             remedy: "fold the sheet over a sharp edge",

@@ -1,7 +1,6 @@
 //! A uniform sky, as in computed scenes.
 
 use super::{AUTO, Effect, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::StatedScene;
 
 /// Irradiance on an open plane from uniform light, relative to the sun's on a plane facing it.
 pub static EVEN_SKY: Unknown = Unknown {
@@ -19,7 +18,7 @@ pub static EVEN_SKY: Unknown = Unknown {
         prior: |stated| Some(stated.priors.amount(stated.priors.even_sky)),
         set: |conditions, value| conditions.even_sky = value,
         symptom: Some(Symptom {
-            ideal: StatedScene::even_sky,
+            ideal: |stated| Some(stated.even_sky()),
             least: 0.02,
             words: |Fitted { value, .. }, stated| {
                 format!(

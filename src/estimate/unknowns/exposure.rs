@@ -1,6 +1,6 @@
 //! Brightness of the picture.
 
-use super::{Effect, Expectation, Flag, Known, Normal, Role, Scale, Unknown, Whose};
+use super::{Effect, Expectation, Fitted, Flag, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Value of a perfect white diffuser facing the sun, in its strongest channel.
@@ -22,7 +22,16 @@ pub static EXPOSURE: Unknown = Unknown {
         },
         prior: of_photograph,
         set: |conditions, value| conditions.exposure = value,
-        symptom: None,
+        symptom: Some(Symptom {
+            ideal: |stated| stated.exposure.filter(|_| !stated.by_chart),
+            least: 0.02,
+            words: |Fitted { value, sd, .. }, stated| {
+                let stated = stated.exposure.map(|stated| format!(", not {stated} as stated"));
+                format!("the facets show an exposure of {value:.2} ± {sd:.2}{}", stated.unwrap_or_default())
+            },
+            remedy: "leave --exposure out, \
+                     or measure it again with a white card or chart in the sheet's light",
+        }),
     }),
 };
 

@@ -18,7 +18,7 @@ pub static FALL_OFF: Unknown = Unknown {
         prior,
         set: |conditions, value| conditions.fall_off = value,
         symptom: Some(Symptom {
-            ideal: |_| 0.0,
+            ideal: |_| Some(0.0),
             least: 0.03,
             words: |Fitted { value, .. }, _| {
                 let (percent, end) = (100.0 * value.abs(), usize::from(*value > 0.0));

@@ -23,7 +23,7 @@ pub static FIRST_GAIN: Unknown = Unknown {
 
 /// For both gains.
 pub(super) const UNBALANCED: Symptom = Symptom {
-    ideal: |_| 1.0,
+    ideal: |_| Some(1.0),
     least: 0.02,
     words: |_, _| "the channels are not balanced as stated".to_owned(),
     remedy: "photograph a grey card with the sheet",

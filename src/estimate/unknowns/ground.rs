@@ -18,7 +18,7 @@ pub static GROUND: Unknown = Unknown {
         prior,
         set: |conditions, value| conditions.ground = value,
         symptom: Some(Symptom {
-            ideal: |_| 0.0,
+            ideal: |_| Some(0.0),
             least: 0.2,
             words: |_, _| "the ground reflects light into the fold".to_owned(),
             remedy: "lay a black cloth around it",

@@ -18,7 +18,7 @@ pub static NEARNESS: Unknown = Unknown {
         prior,
         set: |conditions, value| conditions.nearness = value,
         symptom: Some(Symptom {
-            ideal: |_| 0.0,
+            ideal: |_| Some(0.0),
             least: 0.02,
             words: |Fitted { value, .. }, _| {
                 let depths = value.abs().recip();

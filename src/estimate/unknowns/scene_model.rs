@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use nalgebra::{DMatrix, DVector};
 
 use super::factor::Jet;
-use super::{Factor, Normal, Unknown};
+use super::{Expectation, Factor, Normal, Unknown};
 use crate::camera::CameraResponse;
 use crate::estimate::compress::Reach;
 use crate::estimate::emission::{Backing, Emission};
@@ -17,20 +17,14 @@ pub struct Expected {
     /// The unknown.
     pub unknown: &'static Unknown,
     /// Its prior, on its scale.
-    pub prior: Normal,
+    pub prior: Expectation,
 }
 
 impl Expected {
-    /// The normal number at the standard normal number `w`.
-    fn normal(self, w: f64) -> f64 {
-        self.prior.mean + self.prior.sd * w
-    }
-
     /// Value at `w`, a standard normal number, and its derivative, in the unit of the unknown.
     #[must_use]
     pub fn at(self, w: f64) -> (f64, f64) {
-        let (value, slope) = self.unknown.scale.value(self.normal(w));
-        (value, self.prior.sd * slope)
+        self.prior.value(self.unknown.scale, w)
     }
 
     /// The bound of its range that `value` exceeds, if any.
@@ -121,7 +115,7 @@ impl SceneModel {
     #[must_use]
     pub fn with_known(mut self, unknown: usize, value: f64) -> Self {
         let Expected { unknown, prior } = &mut self.unknowns[unknown];
-        *prior = Normal { mean: unknown.scale.normal(value), sd: 0.0 };
+        *prior = Normal { mean: unknown.scale.normal(value), sd: 0.0 }.into();
         self
     }
 
@@ -151,9 +145,9 @@ impl SceneModel {
     #[must_use]
     pub fn amounts(&self, w: &[f64]) -> Amounts {
         let jet = |factor: &Factor, expected: &Expected, w: f64| {
-            let [value, slope, curvature] = factor.at(expected.normal(w));
-            let sd = expected.prior.sd;
-            [value, sd * slope, sd * sd * curvature]
+            let [number, by_w, bend] = expected.prior.number(w);
+            let [value, slope, curvature] = factor.at(number);
+            [value, by_w * slope, by_w * by_w * curvature + bend * slope]
         };
         let jets = |factors: &Vec<Factor>| {
             factors
@@ -209,16 +203,16 @@ mod tests {
     /// Skies bluer than any real one have a negative reciprocal temperature.
     #[test]
     fn bounds_are_those_that_were_passed() {
-        let colour = Expected { unknown: &SKY_COLOUR, prior: Normal { mean: 100.0, sd: 30.0 } };
+        let colour = Expected { unknown: &SKY_COLOUR, prior: Normal { mean: 100.0, sd: 30.0 }.into() };
         let bound = |mired: f64| colour.bound_of(1e6 / mired);
         assert_eq!([-20.0, 5.0, 100.0, 2000.0].map(bound), [Some(1e5), Some(1e5), None, Some(1e3)]);
-        let sky = Expected { unknown: &SKY, prior: Normal { mean: 0.0, sd: 0.25 } };
+        let sky = Expected { unknown: &SKY, prior: Normal { mean: 0.0, sd: 0.25 }.into() };
         assert_eq!([-0.1, 0.0, 3.0].map(|amount| sky.bound_of(amount)), [Some(0.0), None, None]);
     }
 
     #[test]
     fn a_temperature_is_the_reciprocal_of_its_normal_number() {
-        let colour = Expected { unknown: &SKY_COLOUR, prior: Normal { mean: 100.0, sd: 30.0 } };
+        let colour = Expected { unknown: &SKY_COLOUR, prior: Normal { mean: 100.0, sd: 30.0 }.into() };
         let (cct_k, slope) = colour.at(1.0);
         assert!((cct_k - 1e6 / 130.0).abs() < 1e-9);
         assert!((slope - (colour.at(1.0 + 1e-5).0 - colour.at(1.0 - 1e-5).0) / 2e-5).abs() < 1e-3);

@@ -19,7 +19,7 @@ pub static SHEEN: Unknown = Unknown {
         prior,
         set: |conditions, value| conditions.sheen = value,
         symptom: Some(Symptom {
-            ideal: |_| 0.0,
+            ideal: |_| Some(0.0),
             least: 0.15,
             words: |_, _| "fibres stand up from the sheet".to_owned(),
             remedy: "include a colour chart or a white card",

@@ -19,23 +19,15 @@ pub static SKY: Unknown = Unknown {
     },
     range: 0.0..=f64::INFINITY,
     scale: Scale::Linear,
-    role: Role::Sources { prior, enter },
+    role: Role::Sources { enter },
     photograph: Some(Effect {
         whose: Whose::Light,
         known: |_| Known::Imperfection,
-        prior: of_photograph,
+        prior,
         set: |conditions, value| conditions.sky = value,
         symptom: None,
     }),
 };
-
-/// Standard deviation of the sky: a clear one gives a tenth to a third of the sun's light, a hazy one half of
-/// it, and a sheet among houses gets a part of that.
-const SD: f64 = 0.25;
-
-fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
-    Ok(Some(Normal { mean: scene.lighting.light.sky(), sd: SD }))
-}
 
 /// Replaces any sky of the scene by one of irradiance 1 in an unknown amount.
 fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
@@ -48,7 +40,7 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     Ok(())
 }
 
-fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
+fn prior(stated: &StatedScene) -> Option<Expectation> {
     let with_sun = stated.sky.filter(|_| stated.sun > 0.0);
     stated.daylight.and_then(|_| stated.day.sky(stated.priors, with_sun)).map(Normal::into)
 }

@@ -17,26 +17,18 @@ pub static SKY_COLOUR: Unknown = Unknown {
     flag: SKY.flag,
     range: 1e3..=1e5,
     scale: Scale::Reciprocal,
-    role: Role::Sources { prior, enter },
+    role: Role::Sources { enter },
     photograph: Some(Effect {
         whose: Whose::Light,
         known: |_| Known::OfImperfection,
-        prior: of_photograph,
+        prior,
         set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
         symptom: None,
     }),
 };
 
-/// Reciprocal colour temperature of the sky, 1e-6/K, and its standard deviation: 10000 K, two in three
-/// between 7700 K and 14300 K. An overcast sky has 6500 K, a clear blue one up to 25000 K, where CIE daylight
-/// ends.
-const MIRED: Normal = Normal { mean: 100.0, sd: 30.0 };
 /// Temperatures of the skies between which others are interpolated, K.
 const SKIES_K: [u32; 3] = [20_000, 10_000, 6_250];
-
-fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
-    Ok((!scene.has_sky_illuminant).then_some(MIRED))
-}
 
 /// Every sky becomes three of different colours.
 fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
@@ -60,7 +52,7 @@ fn daylight(scene: &FoldInLight, cct_k: u32) -> Result<CameraResponse> {
     scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, &power)
 }
 
-fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
+fn prior(stated: &StatedScene) -> Option<Expectation> {
     let shown = stated.shown.and_then(|shown| shown.sky[stated.day as usize]);
     let usual = || stated.day.sky_mired(stated.priors);
     stated.daylight.filter(|_| !stated.has_sky_illuminant).map(|_| shown.unwrap_or_else(usual).into())

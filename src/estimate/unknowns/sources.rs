@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::Factor;
 use crate::camera::CameraResponse;
 use crate::error::Result;
-use crate::estimate::photograph::conditions::Daylight;
+use crate::estimate::photograph::StatedScene;
 use crate::forward::{Card, Lighting, Lit};
 use crate::geometry::{Fold, Light};
 use crate::response::{ModeLight, Response};
@@ -25,10 +25,8 @@ pub struct FoldInLight {
     pub sun_power: DVector<f64>,
     /// Mean daylight and its two characteristic vectors: waveband by three.
     pub daylight_vectors: DMatrix<f64>,
-    /// The daylight that the stated sun stands for, if it is any.
-    pub daylight: Option<Daylight>,
-    /// True if the colour of the sky is stated.
-    pub has_sky_illuminant: bool,
+    /// Everything stated about it.
+    pub stated: StatedScene,
     /// The card in place of a panel, if there is one.
     pub card: Option<Card>,
     /// Wavelengths.

@@ -19,7 +19,7 @@ pub static SPECULAR_WEIGHT: Unknown = Unknown {
         prior,
         set: |conditions, value| conditions.specular_weight = value,
         symptom: Some(Symptom {
-            ideal: |_| 0.0,
+            ideal: |_| Some(0.0),
             least: 0.15,
             words: |_, _| "the sheet is glossy".to_owned(),
             remedy: "turn fold and camera so that no light is mirrored into the picture",

@@ -8,7 +8,6 @@ use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::estimate::photograph::StatedScene;
 use crate::estimate::photograph::conditions::Daylight;
-use crate::estimate::photograph::priors::Priors;
 
 /// Correlated colour temperature of the sun, K. As facets reveal little about it, the prior of direct
 /// sunlight replaces the stated value.
@@ -19,14 +18,14 @@ pub static SUN_COLOUR: Unknown = Unknown {
     flag: &Flag { value: "daylight", help: "Colour of the sun, where the illuminant is daylight" },
     range: 1e3..=1e5,
     scale: Scale::Reciprocal,
-    role: Role::Sources { prior, enter },
+    role: Role::Sources { enter },
     photograph: Some(Effect {
         whose: Whose::Light,
         known: |stated| if stated.is_daylight_assumed { Known::Usual } else { Known::Nominal },
-        prior: of_photograph,
+        prior,
         set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
         symptom: Some(Symptom {
-            ideal: |stated| 1e6 / stated.daylight.map_or(stated.priors.sun_mired, Daylight::mired),
+            ideal: |stated| stated.daylight.map(|daylight| 1e6 / daylight.mired()),
             least: 400.0,
             words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
             remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
@@ -34,26 +33,21 @@ pub static SUN_COLOUR: Unknown = Unknown {
     }),
 };
 
-fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
-    Ok(scene.daylight.map(|nominal| of_daylight(nominal, &Priors::USUAL)))
-}
-
-fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
+fn prior(stated: &StatedScene) -> Option<Expectation> {
     let shown = stated.shown.and_then(|shown| shown.sun[stated.day as usize]);
-    stated.daylight.map(|nominal| shown.unwrap_or_else(|| of_daylight(nominal, stated.priors)).into())
-}
-
-fn of_daylight(nominal: Daylight, priors: &Priors) -> Normal {
-    let mean = match nominal {
-        Daylight::Cie { .. } => priors.sun_mired,
-        Daylight::OfSun { mired } => mired,
+    let usual = |nominal| {
+        let mean = match nominal {
+            Daylight::Cie { .. } => stated.priors.sun_mired,
+            Daylight::OfSun { mired } => mired,
+        };
+        Normal { mean, sd: stated.priors.sun_mired_sd }
     };
-    Normal { mean, sd: priors.sun_mired_sd }
+    stated.daylight.map(|nominal| shown.unwrap_or_else(|| usual(nominal)).into())
 }
 
 /// Every sun becomes three of different colours.
 fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources) -> Result<()> {
-    let Some(nominal) = scene.daylight else { return Ok(()) };
+    let Some(nominal) = scene.stated.daylight else { return Ok(()) };
     let nodes = [mean - 2.0 * sd, mean, mean + 2.0 * sd];
     let suns: Vec<_> = nodes.iter().map(|mired| sun(scene, nominal, *mired)).collect::<Result<_>>()?;
     sources.replace(|source| match source.lamp {

@@ -15,29 +15,20 @@ pub static TILT: Unknown = Unknown {
     flag: &Flag { value: "tilt", help: "Angle of the sun off the bisecting plane" },
     range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
-    role: Role::Sources { prior, enter },
+    role: Role::Sources { enter },
     photograph: Some(Effect {
         whose: Whose::Fold,
         known: |_| Known::Stated,
-        prior: of_photograph,
+        prior,
         set: |conditions, value| conditions.tilt_deg = value,
         symptom: Some(Symptom {
-            ideal: |stated| stated.tilt_deg,
+            ideal: |stated| Some(stated.tilt_deg),
             least: 1.0,
             words: |_, _| "the sun stood elsewhere than stated".to_owned(),
             remedy: "turn the fold until both panels are equally bright, or give vkernel --tilt-deg",
         }),
     }),
 };
-
-/// Standard deviation of a tilt, degrees, or a quarter of the opening angle if that is less: turning a sheet
-/// to the sun by eye leaves a few degrees, and a sun further off visibly shades a panel.
-const SD_DEG: f64 = 10.0;
-
-fn prior(scene: &FoldInLight) -> Result<Option<Normal>> {
-    let sd = SD_DEG.min(0.25 * scene.fold.angle_deg());
-    Ok(Some(Normal { mean: scene.lighting.light.tilt_deg(), sd }))
-}
 
 /// Every sun is split into its even and odd parts.
 fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
@@ -53,6 +44,6 @@ fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     Ok(())
 }
 
-fn of_photograph(stated: &StatedScene) -> Option<Expectation> {
+fn prior(stated: &StatedScene) -> Option<Expectation> {
     Some(Normal { mean: stated.tilt_deg, sd: stated.priors.tilt_sd_deg }.into())
 }

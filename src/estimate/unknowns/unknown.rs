@@ -7,6 +7,7 @@ use super::sources::{FoldInLight, Sources};
 use crate::error::Result;
 use crate::estimate::normal::{Expectation, Normal, Scale};
 use crate::estimate::photograph::conditions::{Conditions, StatedScene};
+use crate::estimate::photograph::priors::Priors;
 
 /// Fits everything that photographs of real sheets need.
 pub static AUTO: Flag =
@@ -84,11 +85,24 @@ pub enum Known {
     OfImperfection,
 }
 
+impl Known {
+    /// Heaviness of the tails: what a user stated is now and then a blunder, and an otherwise careful
+    /// photograph may have much of one effect.
+    #[must_use]
+    pub fn tail(self, priors: &Priors) -> f64 {
+        match self {
+            Self::Stated | Self::Metered => priors.stated_tail,
+            Self::Imperfection => priors.amount_tail,
+            Self::Usual | Self::Shown | Self::Nominal | Self::OfImperfection => 0.0,
+        }
+    }
+}
+
 /// A deviation of a photograph from the ideal, in the photographer's words.
 #[derive(Debug)]
 pub struct Symptom {
-    /// Ideal value.
-    pub ideal: fn(&StatedScene) -> f64,
+    /// Ideal value; `None` if there is none.
+    pub ideal: fn(&StatedScene) -> Option<f64>,
     /// Least difference from it worth reporting.
     pub least: f64,
     /// What is wrong.
@@ -115,9 +129,7 @@ pub enum Role {
     Photograph,
     /// It changes the sources.
     Sources {
-        /// Its prior; `None` if the scene leaves nothing open.
-        prior: fn(&FoldInLight) -> Result<Option<Normal>>,
-        /// Introduces it into the sources.
+        /// Introduces it, with its prior, into the sources.
         enter: fn(&FoldInLight, Normal, &mut Sources) -> Result<()>,
     },
 }

@@ -18,7 +18,7 @@ pub static VEILING_GLARE: Unknown = Unknown {
         prior,
         set: |conditions, value| conditions.veiling_glare = value,
         symptom: Some(Symptom {
-            ideal: |_| 0.0,
+            ideal: |_| Some(0.0),
             least: 0.01,
             words: |_, _| "stray light lies over the picture".to_owned(),
             remedy: "shade the lens",

@@ -18,7 +18,7 @@ pub static VIGNETTING: Unknown = Unknown {
         prior,
         set: |conditions, value| conditions.vignetting = value,
         symptom: Some(Symptom {
-            ideal: |_| 0.0,
+            ideal: |_| Some(0.0),
             least: 0.1,
             words: |_, _| "the lens darkens the corners of the picture".to_owned(),
             remedy: "give vextract --white with a picture of a white sheet, or use a smaller aperture",
