@@ -155,7 +155,7 @@ impl Side {
         EdgeModel { blur, most_of_piece }: EdgeModel,
     ) -> Gains {
         let of_piece = |piece: &Piece| {
-            let gains = piece.gains(&self.across(), blur, reach_px, reach_px + FLANK_PX);
+            let gains = piece.gains(&self.across(), blur, reach_px);
             let most = gains.iter().copied().fold(0.0, f64::max);
             let gains = gains.map(|gain| gain.max(most - most_of_piece));
             let breaks = inwards.map_or([0.0; PLACES], |inwards| piece.breaks(inwards, reach_px, blur));
@@ -195,7 +195,7 @@ impl Side {
                 }
             }
         }
-        Piece::new((places[0] + places[1]) / 2.0, pixels)
+        Piece::new((places[0] + places[1]) / 2.0, width_px, pixels)
     }
 
     fn at(&self, along: f64, across: f64) -> Point {

@@ -1,83 +1,79 @@
-//! Least squares fits of light as a function of distance from a line, and sums from which they follow
-//! quickly.
+//! Least squares fits of light as a function of distance from a line.
+//!
+//! Whatever is fitted is a polynomial in the distance, piece by piece, and so is the fraction of a pixel
+//! beyond an edge. All fits follow from a few sums over the pixels of each piece, however many there are.
 
-use nalgebra::{Matrix4, Matrix4x3, SVector, Vector3};
+use std::array;
 
-/// Number of coefficients per piece and channel: two planes of light, or a polynomial across it.
+use nalgebra::{Matrix4, Matrix4x3, Vector3};
+
+/// Number of coefficients per channel: two planes of light, or a cubic polynomial.
 pub(super) const COEFFICIENTS: usize = 4;
-/// Number of coefficients for one side of it.
+/// Number of coefficients for one side of an edge.
 const OF_A_SIDE: f64 = 2.0;
+/// Powers of the distance that are summed, by themselves and times the light.
+const POWERS: usize = 7;
+const POWERS_OF_LIGHT: usize = 4;
+
+/// Fraction of a pixel beyond an edge: coefficients of the powers of the distance.
+pub(super) type Share = [f64; 3];
 
 /// Sums over pixels whose distances from a line and light are known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sums {
-    pub count: f64,
-    distances: f64,
-    distance_squares: f64,
-    light: Vector3<f64>,
-    distance_light: Vector3<f64>,
+    /// Of the distance to the powers from 0 on.
+    powers: [f64; POWERS],
+    /// The same, times the light.
+    light: [Vector3<f64>; POWERS_OF_LIGHT],
     pub light_squares: Vector3<f64>,
 }
 
 impl Default for Sums {
     fn default() -> Self {
         let none = Vector3::zeros();
-        Self {
-            count: 0.0,
-            distances: 0.0,
-            distance_squares: 0.0,
-            light: none,
-            distance_light: none,
-            light_squares: none,
-        }
+        Self { powers: [0.0; POWERS], light: [none; POWERS_OF_LIGHT], light_squares: none }
     }
 }
 
 impl Sums {
     /// With one more pixel.
-    pub fn with(&self, distance: f64, light: &Vector3<f64>) -> Self {
-        Self {
-            count: self.count + 1.0,
-            distances: self.distances + distance,
-            distance_squares: self.distance_squares + distance * distance,
-            light: self.light + light,
-            distance_light: self.distance_light + light * distance,
-            light_squares: self.light_squares + light.component_mul(light),
+    pub fn with(mut self, distance: f64, light: &Vector3<f64>) -> Self {
+        let mut power = 1.0;
+        for (n, sum) in self.powers.iter_mut().enumerate() {
+            *sum += power;
+            if let Some(sum) = self.light.get_mut(n) {
+                *sum += light * power;
+            }
+            power *= distance;
         }
+        self.light_squares += light.component_mul(light);
+        self
     }
 
     /// Without some of the pixels.
-    pub fn without(&self, others: &Self) -> Self {
-        Self {
-            count: self.count - others.count,
-            distances: self.distances - others.distances,
-            distance_squares: self.distance_squares - others.distance_squares,
-            light: self.light - others.light,
-            distance_light: self.distance_light - others.distance_light,
-            light_squares: self.light_squares - others.light_squares,
-        }
+    pub fn without(mut self, others: &Self) -> Self {
+        self.powers.iter_mut().zip(others.powers).for_each(|(sum, other)| *sum -= other);
+        self.light.iter_mut().zip(others.light).for_each(|(sum, other)| *sum -= other);
+        self.light_squares -= others.light_squares;
+        self
     }
 
-    /// The same pixels, with distances from a line shifted by `distance`.
-    pub fn seen_from(&self, distance: f64) -> Self {
-        Self {
-            distances: self.distances - distance * self.count,
-            distance_squares: self.distance_squares
-                - distance * (2.0 * self.distances - distance * self.count),
-            distance_light: self.distance_light - self.light * distance,
-            ..*self
-        }
+    /// Number of pixels.
+    pub fn count(&self) -> f64 {
+        self.powers[0]
     }
 
     /// Sum of squared residuals of a plane of light in each channel; none if the fit is not unique or pixels
     /// are too few.
     pub fn residual(&self) -> Option<Vector3<f64>> {
-        let spread = self.distance_squares - self.distances * self.distances / self.count;
-        let known = self.count > 2.0 * OF_A_SIDE && spread > 1e-9 * self.distance_squares;
+        let [count, distances, squares, ..] = self.powers;
+        let [light, distance_light, ..] = self.light;
+        let spread = squares - distances * distances / count;
+        let known = count > 2.0 * OF_A_SIDE && spread > 1e-9 * squares;
         known.then(|| {
-            let mean = self.light / self.count;
-            let slope = (self.distance_light - mean * self.distances) / spread;
-            let explained = mean.component_mul(&self.light) + slope.component_mul(&slope) * spread;
+            let mean = light / count;
+            let slope = (distance_light - mean * distances) / spread;
+            let explained = mean.component_mul(&light) + slope.component_mul(&slope) * spread;
             (self.light_squares - explained).sup(&Vector3::zeros())
         })
     }
@@ -86,61 +82,66 @@ impl Sums {
 /// Normal equations of a fit with [`COEFFICIENTS`] numbers for each channel.
 #[derive(Debug, Clone)]
 pub(super) struct Fit {
-    pub normal: Matrix4<f64>,
-    pub right: Matrix4x3<f64>,
-}
-
-impl Default for Fit {
-    fn default() -> Self {
-        Self { normal: Matrix4::zeros(), right: Matrix4x3::zeros() }
-    }
+    normal: Matrix4<f64>,
+    right: Matrix4x3<f64>,
 }
 
 impl Fit {
-    /// A plane of light for each of two groups of pixels.
-    pub fn of_sides(near: &Sums, far: &Sums) -> Self {
-        let mut fit = Self::default();
-        for (first, sums) in [(0, near), (2, far)] {
-            fit.normal[(first, first)] = sums.count;
-            fit.normal[(first, first + 1)] = sums.distances;
-            fit.normal[(first + 1, first)] = sums.distances;
-            fit.normal[(first + 1, first + 1)] = sums.distance_squares;
-            fit.right.set_row(first, &sums.light.transpose());
-            fit.right.set_row(first + 1, &sums.distance_light.transpose());
+    /// A cubic polynomial of the distance.
+    pub fn smooth(sums: &Sums) -> Self {
+        Self {
+            normal: Matrix4::from_fn(|i, j| sums.powers[i + j]),
+            right: Matrix4x3::from_fn(|i, channel| sums.light[i][channel]),
         }
-        fit
     }
 
-    /// Adds a pixel of this light, which the fit models by these basis values.
-    pub fn add(&mut self, basis: &SVector<f64, COEFFICIENTS>, light: &Vector3<f64>) {
-        self.normal += basis * basis.transpose();
-        self.right += basis * light.transpose();
+    /// Two planes of light with an edge between them.
+    ///
+    /// # Arguments
+    /// - `ends`: sums over the pixels up to where the edge begins to cross them, up to where the fraction
+    ///   beyond it becomes another polynomial, and up to where all is beyond; `all`: over all pixels.
+    /// - `shares`: these fractions.
+    pub fn of_planes(ends: [&Sums; 4], shares: [Share; 3], all: &Sums) -> Self {
+        let far = |n: usize| (all.powers[n] - ends[3].powers[n], all.light[n] - ends[3].light[n]);
+        let (mut near_near, mut near_far) = ([0, 1, 2].map(|n| ends[0].powers[n]), [0.0; 3]);
+        let mut far_far = [0, 1, 2].map(|n| far(n).0);
+        let (mut near_light, mut far_light) = ([ends[0].light[0], ends[0].light[1]], [far(0).1, far(1).1]);
+        for (ends, share) in ends.windows(2).zip(shares) {
+            let [first, end] = [ends[0], ends[1]];
+            let square = squared(share);
+            let powers: [f64; POWERS] = array::from_fn(|n| end.powers[n] - first.powers[n]);
+            for n in 0..3 {
+                let once: f64 = share.iter().zip(&powers[n..]).map(|(factor, sum)| factor * sum).sum();
+                let twice: f64 = square.iter().zip(&powers[n..]).map(|(factor, sum)| factor * sum).sum();
+                near_near[n] += powers[n] - 2.0 * once + twice;
+                near_far[n] += once - twice;
+                far_far[n] += twice;
+            }
+            let light: [_; POWERS_OF_LIGHT] = array::from_fn(|n| end.light[n] - first.light[n]);
+            for n in 0..2 {
+                let beyond = light[n] * share[0] + light[n + 1] * share[1] + light[n + 2] * share[2];
+                near_light[n] += light[n] - beyond;
+                far_light[n] += beyond;
+            }
+        }
+        let parts = [near_near, near_far, far_far];
+        Self {
+            normal: Matrix4::from_fn(|i, j| parts[i / 2 + j / 2][i % 2 + j % 2]),
+            right: Matrix4x3::from_fn(|i, channel| [near_light, far_light][i / 2][i % 2][channel]),
+        }
     }
 
-    /// Adds pixels that see part of both sides: their distances from the edge, the fractions of them beyond
-    /// it, and their light.
-    pub fn add_mixed<'a>(&mut self, pixels: impl Iterator<Item = (f64, f64, &'a Vector3<f64>)>) {
-        // near by near, near by far and far by far: sums of 1, z and z²
-        let (mut sums, mut right) = ([[0.0; 3]; 3], [Vector3::zeros(); COEFFICIENTS]);
-        for (z, beyond, light) in pixels {
-            let before = 1.0 - beyond;
-            for (sums, weight) in sums.iter_mut().zip([before * before, before * beyond, beyond * beyond]) {
-                sums[0] += weight;
-                sums[1] += weight * z;
-                sums[2] += weight * z * z;
-            }
-            for (right, weight) in right.iter_mut().zip([before, before * z, beyond, beyond * z]) {
-                *right += light * weight;
-            }
-        }
-        for (i, j) in (0..COEFFICIENTS).flat_map(|i| (0..COEFFICIENTS).map(move |j| (i, j))) {
-            self.normal[(i, j)] += sums[i / 2 + j / 2][i % 2 + j % 2];
-        }
-        for (row, right) in right.iter().enumerate() {
-            let sum = self.right.row(row) + right.transpose();
-            self.right.set_row(row, &sum);
-        }
+    /// How much of the sum of squares it explains in each channel; `None` if it is not unique.
+    pub fn explained(&self) -> Option<Vector3<f64>> {
+        let whitened = self.normal.cholesky()?.l_dirty().solve_lower_triangular(&self.right)?;
+        Some(whitened.component_mul(&whitened).row_sum_tr())
     }
+}
+
+/// The square of a polynomial.
+fn squared([constant, slope, bend]: Share) -> [f64; 5] {
+    let middle = slope * slope + 2.0 * constant * bend;
+    [constant * constant, 2.0 * constant * slope, middle, 2.0 * slope * bend, bend * bend]
 }
 
 #[cfg(test)]
@@ -160,7 +161,6 @@ mod tests {
             })
         };
         assert!(sums(false).residual().unwrap().amax() < 1e-8);
-        assert!(sums(false).seen_from(5.0).residual().unwrap().amax() < 1e-8);
         assert!((sums(true).residual().unwrap() - Vector3::from_element(10.0)).amax() < 0.01);
         assert!(sums(true).without(&sums(false)).residual().is_none());
     }

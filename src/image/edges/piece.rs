@@ -5,9 +5,9 @@
 //! as well is no edge. Nor may the edge be the end of a sheet's shadow: up to its edge the sheet must
 //! continue as it is further inwards.
 
-use nalgebra::{SVector, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
-use super::fit::{COEFFICIENTS, Fit, Sums};
+use super::fit::{COEFFICIENTS, Fit, Share, Sums};
 
 /// Distances at which an edge is tried.
 pub(super) const PLACES: usize = 25;
@@ -28,10 +28,14 @@ const CLEARANCE_PX: f64 = 2.0;
 pub(super) struct Piece {
     /// Its position along the side, from 0 to 1.
     pub place: f64,
-    /// Distance from the side, px, and light, sorted by distance.
-    pixels: Vec<(f64, Vector3<f64>)>,
-    /// Sums over the first k of them, for k from none to all.
+    /// Their greatest distance from the side, px, the unit of all others.
+    width_px: f64,
+    /// Distances of the pixels, sorted.
+    distances: Vec<f64>,
+    /// Sums over the first k pixels, for k from none to all.
     sums: Vec<Sums>,
+    /// Sums of squares that count as zero.
+    exact: Vector3<f64>,
     /// Independent channels: the three of a grey picture count as one.
     channels: usize,
 }
@@ -42,27 +46,29 @@ pub(super) fn offset(place: usize, reach_px: f64) -> f64 {
 }
 
 impl Piece {
-    /// Some pixels, each with its distance from the side and its light.
-    pub fn new(place: f64, mut pixels: Vec<(f64, Vector3<f64>)>) -> Self {
+    /// Some pixels, each with its distance from the side, px, at most `width_px`, and its light.
+    pub fn new(place: f64, width_px: f64, mut pixels: Vec<(f64, Vector3<f64>)>) -> Self {
         let is_grey = pixels.iter().all(|(_, light)| light.max() <= light.min());
+        let brightest = pixels.iter().fold(Vector3::zeros(), |most, (_, light)| light.abs().sup(&most));
+        let exact = brightest.map(|light: f64| pixels.len() as f64 * (EXACT * light).powi(2));
         pixels.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let mut sums = vec![Sums::default()];
-        for (distance, light) in &pixels {
-            sums.push(sums[sums.len() - 1].with(*distance, light));
+        let (mut distances, mut sums) = (Vec::with_capacity(pixels.len()), vec![Sums::default()]);
+        for (distance_px, light) in pixels {
+            let distance = distance_px / width_px;
+            distances.push(distance);
+            sums.push(sums[sums.len() - 1].with(distance, &light));
         }
-        Self { place, pixels, sums, channels: if is_grey { 1 } else { 3 } }
+        Self { place, width_px, distances, sums, exact, channels: if is_grey { 1 } else { 3 } }
     }
 
-    /// Gain in log likelihood of an edge at each place over none; pixels are at most `width_px` from the
-    /// side.
-    pub fn gains(&self, across: &Vector2<f64>, blur: usize, reach_px: f64, width_px: f64) -> [f64; PLACES] {
-        let (count, exact) = (self.pixels.len() as f64, self.exact());
-        let smooth = self.smooth_residual(width_px);
-        let blur_px = BLURS_PX[blur];
+    /// Gain in log likelihood of an edge at each place over none.
+    pub fn gains(&self, across: &Vector2<f64>, blur: usize, reach_px: f64) -> [f64; PLACES] {
+        let smooth = self.left_by(&Fit::smooth(self.all()));
+        let spread_px = spread_px(across, BLURS_PX[blur]);
         let gain = |place| {
-            let edge = self.edge_residual(offset(place, reach_px), across, blur_px)?;
-            let spare = count - COEFFICIENTS as f64 - 1.0;
-            Some(0.5 * spare * self.sum_of_ln(smooth? + exact, edge + exact))
+            let edge = self.edge_residual(offset(place, reach_px), spread_px)?;
+            let spare = self.distances.len() as f64 - COEFFICIENTS as f64 - 1.0;
+            Some(0.5 * spare * self.sum_of_ln(smooth? + self.exact, edge + self.exact))
         };
         std::array::from_fn(|place| gain(place).filter(|gain| gain.is_finite()).unwrap_or(0.0))
     }
@@ -70,9 +76,9 @@ impl Piece {
     /// Loss in log likelihood of the light inside an edge at each place, compared with a sheet that continues
     /// up to there.
     pub fn breaks(&self, inwards: f64, reach_px: f64, blur: usize) -> [f64; PLACES] {
-        let within = |least: f64| {
-            let sums = self.sums_beyond(least, inwards);
-            Some((sums.residual()? / sums.count + self.exact() / sums.count, sums.count))
+        let within = |least_px: f64| {
+            let sums = self.sums_beyond(least_px, inwards);
+            Some(((sums.residual()? + self.exact) / sums.count(), sums.count()))
         };
         let Some((further, _)) = within(reach_px) else { return [0.0; PLACES] };
         let usual = further * UNEVEN * UNEVEN;
@@ -82,55 +88,38 @@ impl Piece {
         })
     }
 
-    /// Sums over the pixels whose distance times `inwards`, 1 or -1, exceeds `least`.
-    fn sums_beyond(&self, least: f64, inwards: f64) -> Sums {
-        if inwards > 0.0 {
-            let first = self.pixels.partition_point(|(distance, _)| *distance <= least);
-            self.sums[self.pixels.len()].without(&self.sums[first])
-        } else {
-            self.sums[self.pixels.partition_point(|(distance, _)| -distance > least)]
-        }
+    /// Sums over all pixels.
+    fn all(&self) -> &Sums {
+        &self.sums[self.distances.len()]
     }
 
-    /// Residual of a cubic polynomial across the piece.
-    fn smooth_residual(&self, width_px: f64) -> Option<Vector3<f64>> {
-        let mut fit = Fit::default();
-        for (distance, light) in &self.pixels {
-            let d = distance / width_px;
-            fit.add(&SVector::from([1.0, d, d * d, d * d * d]), light);
-        }
-        self.left_by(fit)
+    /// Number of pixels with smaller distances.
+    fn nearer_than(&self, distance_px: f64) -> usize {
+        let distance = distance_px / self.width_px;
+        self.distances.partition_point(|other| *other < distance)
     }
 
-    /// Residual of two planes of light that meet at this distance from the side. Pixels that the edge does
-    /// not cross enter through precomputed sums.
-    fn edge_residual(&self, edge_px: f64, across: &Vector2<f64>, blur_px: f64) -> Option<Vector3<f64>> {
-        let reach = edge_reach(across, blur_px);
-        let first = self.pixels.partition_point(|(distance, _)| distance - edge_px <= -reach);
-        let end = self.pixels.partition_point(|(distance, _)| distance - edge_px < reach);
-        let mut fit = Fit::of_sides(
-            &self.sums[first].seen_from(edge_px),
-            &self.sums[self.pixels.len()].without(&self.sums[end]).seen_from(edge_px),
-        );
-        fit.add_mixed(self.pixels[first..end].iter().map(|(distance, light)| {
-            let z = distance - edge_px;
-            (z, share_beyond(z, across, blur_px), light)
-        }));
-        self.left_by(fit)
+    /// Sums over the pixels whose distance times `inwards`, 1 or -1, exceeds `least_px`.
+    fn sums_beyond(&self, least_px: f64, inwards: f64) -> Sums {
+        let first = &self.sums[self.nearer_than(inwards * least_px)];
+        if inwards > 0.0 { self.all().without(first) } else { *first }
+    }
+
+    /// Residual of two planes of light that meet at this distance from the side.
+    fn edge_residual(&self, edge_px: f64, [wide_px, narrow_px]: [f64; 2]) -> Option<Vector3<f64>> {
+        let [wide, narrow, edge] = [wide_px, narrow_px, edge_px].map(|px| px / self.width_px);
+        let (outer_px, inner_px) = ((wide_px + narrow_px) / 2.0, (wide_px - narrow_px) / 2.0);
+        let ends =
+            [-outer_px, -inner_px, inner_px, outer_px].map(|from_edge| self.nearer_than(edge_px + from_edge));
+        let shares = shares_beyond(wide, narrow).map(|share| shifted(share, edge));
+        self.left_by(&Fit::of_planes(ends.map(|end| &self.sums[end]), shares, self.all()))
     }
 
     /// Sum of squared residuals of a fit in each channel; none if the fit is not unique or pixels are too
     /// few.
-    fn left_by(&self, fit: Fit) -> Option<Vector3<f64>> {
-        let explained = fit.normal.cholesky()?.solve(&fit.right).component_mul(&fit.right).row_sum_tr();
-        let squares = self.sums[self.pixels.len()].light_squares;
-        (self.pixels.len() > 2 * COEFFICIENTS).then_some((squares - explained).sup(&Vector3::zeros()))
-    }
-
-    /// Sums of squares that count as zero.
-    fn exact(&self) -> Vector3<f64> {
-        let brightest = self.pixels.iter().fold(Vector3::zeros(), |most, (_, light)| light.abs().sup(&most));
-        brightest.map(|light: f64| self.pixels.len() as f64 * (EXACT * light).powi(2))
+    fn left_by(&self, fit: &Fit) -> Option<Vector3<f64>> {
+        let left = (self.all().light_squares - fit.explained()?).sup(&Vector3::zeros());
+        (self.distances.len() > 2 * COEFFICIENTS).then_some(left)
     }
 
     /// Sum over the channels of the logarithms of ratios.
@@ -140,26 +129,27 @@ impl Piece {
 }
 
 /// Extents across a line with this unit normal of a pixel widened by `blur_px`, the longer first.
-fn spread(normal: &Vector2<f64>, blur_px: f64) -> [f64; 2] {
+fn spread_px(normal: &Vector2<f64>, blur_px: f64) -> [f64; 2] {
     [normal.amax() + blur_px, normal.amin().max(1e-3) + blur_px]
 }
 
-/// The distance from a line beyond which a pixel does not see across it.
-fn edge_reach(normal: &Vector2<f64>, blur_px: f64) -> f64 {
-    spread(normal, blur_px).iter().sum::<f64>() / 2.0
+/// Fraction of a pixel with these extents across a line that lies beyond it, as a polynomial of how far its
+/// centre does: where the line cuts a corner, two opposite sides, and another corner.
+fn shares_beyond(wide: f64, narrow: f64) -> [Share; 3] {
+    let (outer, inner) = ((wide + narrow) / 2.0, (wide - narrow) / 2.0);
+    let [outer_square, inner_square] = [outer * outer, inner * inner];
+    let shares = [
+        [outer_square, 2.0 * outer, 1.0],
+        [outer_square - inner_square, 2.0 * narrow, 0.0],
+        [outer_square - 2.0 * inner_square, 2.0 * outer, -1.0],
+    ];
+    shares.map(|share| share.map(|factor| factor / (2.0 * wide * narrow)))
 }
 
-/// Fraction of a pixel, widened by the blur of `blur_px`, that lies beyond a line with this unit normal when
-/// its centre is `z` beyond it.
-fn share_beyond(z: f64, normal: &Vector2<f64>, blur_px: f64) -> f64 {
-    let [wide, narrow] = spread(normal, blur_px);
-    let ramp = |x: f64| x.max(0.0).powi(2) / 2.0;
-    let (outer, inner) = ((wide + narrow) / 2.0, (wide - narrow) / 2.0);
-    match z {
-        z if z <= -outer => 0.0,
-        z if z >= outer => 1.0,
-        z => (ramp(z + outer) - ramp(z + inner) - ramp(z - inner)) / (wide * narrow),
-    }
+/// The polynomial of the distance from a line as one of the distance from the side, from which the line is
+/// this far.
+fn shifted([constant, slope, bend]: Share, line: f64) -> Share {
+    [constant - line * (slope - line * bend), slope - 2.0 * line * bend, bend]
 }
 
 #[cfg(test)]
@@ -175,7 +165,17 @@ mod tests {
             let place = |k: usize| (k as f64 + 0.5) / 400.0 - 0.5;
             let beyond = |k: &usize| z + normal.x * place(k % 400) + normal.y * place(k / 400) > 0.0;
             let share = (0..160_000).filter(beyond).count() as f64 / 160_000.0;
-            prop_assert!((share_beyond(z, &normal, 0.0) - share).abs() < 3e-3, "{share}");
+            let [wide, narrow] = spread_px(&normal, 0.0);
+            let ends = [(-wide - narrow) / 2.0, (narrow - wide) / 2.0, (wide - narrow) / 2.0, (wide + narrow) / 2.0];
+            let found = match ends.iter().filter(|end| **end <= z).count() {
+                0 => 0.0,
+                4 => 1.0,
+                cut => {
+                    let [constant, slope, bend] = shifted(shares_beyond(wide, narrow)[cut - 1], 0.3);
+                    constant + (z + 0.3) * (slope + (z + 0.3) * bend)
+                }
+            };
+            prop_assert!((found - share).abs() < 3e-3, "{found} {share}");
         }
     }
 }
