@@ -166,7 +166,8 @@ mod tests {
             let beyond = |k: &usize| z + normal.x * place(k % 400) + normal.y * place(k / 400) > 0.0;
             let share = (0..160_000).filter(beyond).count() as f64 / 160_000.0;
             let [wide, narrow] = spread_px(&normal, 0.0);
-            let ends = [(-wide - narrow) / 2.0, (narrow - wide) / 2.0, (wide - narrow) / 2.0, (wide + narrow) / 2.0];
+            let (outer, inner) = ((wide + narrow) / 2.0, (wide - narrow) / 2.0);
+            let ends = [-outer, -inner, inner, outer];
             let found = match ends.iter().filter(|end| **end <= z).count() {
                 0 => 0.0,
                 4 => 1.0,
