@@ -27,7 +27,7 @@ pub struct Channels {
 impl Channels {
     /// The maps from the terms to each channel's data for every source, `[channel][source]`, and the camera's
     /// responses to each source.
-    pub fn new<'c>(maps: &[Vec<DMatrix<f64>>], cameras: impl Iterator<Item = &'c CameraResponse>) -> Self {
+    pub fn new<'c>(maps: &[&[DMatrix<f64>]], cameras: impl Iterator<Item = &'c CameraResponse>) -> Self {
         let ends = maps.iter().scan(0, |end, of_channel| {
             let start = *end;
             *end += of_channel[0].nrows();

@@ -4,18 +4,53 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::measured::Measured;
-use crate::forward::{FacetModel, FacetValues};
+use crate::forward::{FacetModel, FacetValues, Source};
 use crate::solve::Eigen;
 
-/// A channel of the `usable` facets, and their weights: reciprocal standard deviations.
-pub fn channel_of(measured: &Measured, usable: &[usize], channel: usize) -> [DVector<f64>; 2] {
-    let column = |of: &FacetValues| {
-        let value = |facet: &usize| of.get(*facet, channel).unwrap_or(f64::NAN);
-        DVector::from_iterator(usable.len(), usable.iter().map(value))
-    };
-    [column(measured.rgb), column(measured.sd).map(f64::recip)]
+/// A channel of measured facets, in units of their noise, compressed.
+pub struct Compressed {
+    /// What reflectances can move.
+    pub data: DVector<f64>,
+    /// Map from the terms to these data for each source: datum by term.
+    pub maps: Vec<DMatrix<f64>>,
+    /// Sum of squares of the rest.
+    pub outside: f64,
+    /// The brightest facet.
+    pub peak: f64,
 }
 
+impl Compressed {
+    /// The `usable` facets of a channel, without directions in which no reflectance moves them by more than
+    /// `cutoff` at brightness 1; `of_all`: the reach of all facets if all are known equally well.
+    pub fn channel<'r>(
+        model: &FacetModel,
+        of_all: impl FnOnce() -> &'r Reach,
+        (measured, usable, channel): (&Measured, &[usize], usize),
+        cutoff: f64,
+    ) -> Self {
+        let column = |of: &FacetValues| {
+            let value = |facet: &usize| of.get(*facet, channel).unwrap_or(f64::NAN);
+            DVector::from_iterator(usable.len(), usable.iter().map(value))
+        };
+        let weights = column(measured.sd).map(f64::recip);
+        let all = column(measured.rgb).component_mul(&weights);
+        let is_uniform = weights.max() <= weights.min();
+        let (data, maps) = if is_uniform && usable.len() == measured.rgb.len() {
+            of_all().compressed(&all, weights[0], cutoff)
+        } else {
+            let weighted = |source: &Source| {
+                let mut facets = source.facets.select_rows(usable);
+                facets.column_iter_mut().for_each(|mut term| term.component_mul_assign(&weights));
+                facets
+            };
+            let sources: Vec<_> = model.sources().iter().map(weighted).collect();
+            Reach::of(model, &sources.iter().collect::<Vec<_>>()).compressed(&all, 1.0, cutoff)
+        };
+        Self { outside: all.norm_squared() - data.norm_squared(), peak: all.max(), data, maps }
+    }
+}
+
+/// Sum of some rows, as a column.
 pub fn sum_of_rows(matrix: &DMatrix<f64>, rows: &[usize]) -> DVector<f64> {
     rows.iter().fold(DVector::zeros(matrix.ncols()), |sum, row| sum + matrix.row(*row).transpose())
 }

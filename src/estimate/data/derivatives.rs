@@ -1,0 +1,214 @@
+//! The model of a sample's data at a point, with its derivatives.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::FacetData;
+use super::emitting::{Emitted, scaled_columns, scaled_rows};
+use crate::estimate::Exposure;
+use crate::estimate::emission::EXCITING_PLACE;
+use crate::estimate::emission::terms::{Made, made};
+use crate::estimate::unknowns::{Amounts, Normal};
+
+/// Data minus model, in units of the noise.
+pub struct Residuals {
+    /// Data minus model.
+    pub residuals: DVector<f64>,
+    /// The exposure used.
+    pub exposure: f64,
+}
+
+/// Residuals and the derivatives of the model: a column per waveband for its reflectance, then one per
+/// unknown of the scene.
+pub struct LinearisedFacets {
+    /// Data minus model.
+    pub residuals: DVector<f64>,
+    /// Derivatives of the model.
+    pub jacobian: DMatrix<f64>,
+    /// The exposure used.
+    pub exposure: FittedExposure,
+    /// Input of [`FacetData::curvature`].
+    pub second: SecondDerivatives,
+}
+
+/// An exposure fitted to the facets.
+pub struct FittedExposure {
+    /// Value.
+    pub value: f64,
+    /// Its derivatives by reflectances and unknowns, columns as in the Jacobian.
+    pub slopes: DVector<f64>,
+    /// Its standard deviation if all else is known.
+    pub sd: f64,
+}
+
+/// Ingredients of second derivatives at a point: exposure, amounts of the sources, the model of each source
+/// at exposure 1, and derivatives of the terms.
+pub struct SecondDerivatives {
+    exposure: f64,
+    amounts: Amounts,
+    parts: DMatrix<f64>,
+    slopes: DMatrix<f64>,
+    curvatures: DMatrix<f64>,
+    emitted: Option<Emitted>,
+}
+
+/// `Σ λᵢ∇²mᵢ`, which does not mix wavebands.
+pub struct Curvature {
+    /// `Σ λᵢ ∂mᵢ/∂r` per waveband.
+    pub slopes: DVector<f64>,
+    /// `Σ λᵢ ∂²mᵢ/∂r²` per waveband.
+    pub reflectance: DVector<f64>,
+    /// By reflectance and unknown: waveband by unknown.
+    pub mixed: DMatrix<f64>,
+    /// Unknown by unknown.
+    pub unknowns: DMatrix<f64>,
+}
+
+impl FacetData<'_> {
+    /// Residuals at a point.
+    ///
+    /// # Source
+    /// Deeb et al., first term of eq. (36).
+    #[must_use]
+    pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Residuals {
+        let mut terms = self.scene.facets().terms_of(reflectance);
+        if let Some((emission, w)) = self.emits(unknowns) {
+            let poles = self.signed_poles();
+            let exciting = emission.exciting_bounces(&poles, w);
+            let how = (emission.power_of_reflectance(), exciting.factors.as_slice());
+            let made = made(reflectance, &terms, &poles, how);
+            terms += scaled_rows(&made, emission.at(w).fraction.as_slice());
+        }
+        let amounts = self.scene.amounts(unknowns).values();
+        let values = self.channels.parts_of(&terms) * &amounts;
+        let exposure = self.exposure_of(&values, || self.sum_of(&terms, &amounts).sum());
+        Residuals { residuals: self.left_over(exposure, &values), exposure }
+    }
+
+    /// Residuals at a point, with the derivatives of the model.
+    ///
+    /// # Source
+    /// For an unknown exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15,
+    /// 1975, p. 49). The prior on its logarithm is one more datum, which depends on nothing but the exposure.
+    #[must_use]
+    pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
+        let [mut terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
+        let emitted = self.emitted(reflectance, unknowns, [&terms, &slopes, &curvatures]);
+        if let Some(Emitted { sent, made, .. }) = &emitted {
+            terms += scaled_rows(&made.terms, sent.fraction.as_slice());
+            slopes += scaled_rows(&made.slopes, sent.fraction.as_slice());
+            curvatures += scaled_rows(&made.curvatures, sent.fraction.as_slice());
+        }
+        let (amounts, parts) = (self.scene.amounts(unknowns), self.channels.parts_of(&terms));
+        let (now, by_unknown) = (amounts.values(), amounts.slopes());
+        let values = &parts * &now;
+        let exposure = self.exposure_of(&values, || self.sum_of(&terms, &now).sum());
+        let (bands, scene) = (slopes.nrows(), by_unknown.ncols());
+        let mut jacobian = self.channels.columns_of(&slopes, &now, self.unknowns());
+        jacobian.columns_mut(bands, scene).gemm(1.0, &parts, &by_unknown, 0.0);
+        if let Some(Emitted { sent, exciting, made: Made { terms, .. } }) = &emitted {
+            let column = |terms: &DMatrix<f64>| self.channels.parts_of(terms) * &now;
+            for (n, by) in sent.slopes.column_iter().enumerate() {
+                let column = column(&scaled_rows(terms, by.as_slice()));
+                jacobian.column_mut(bands + scene + n).copy_from(&column);
+            }
+            let by_exciting = scaled_columns(terms, &exciting.slopes);
+            let column = column(&scaled_rows(&by_exciting, sent.fraction.as_slice()));
+            jacobian.column_mut(bands + scene + EXCITING_PLACE).copy_from(&column);
+        }
+        jacobian *= exposure;
+        // Effect of a relative change of the exposure.
+        let mut by_exposure = exposure * &values;
+        if let Exposure::Expected(Normal { sd, .. }) = self.exposure {
+            by_exposure = by_exposure.push(sd.recip());
+            jacobian = jacobian.insert_row(values.len(), 0.0);
+        }
+        let square = by_exposure.norm_squared().max(f64::MIN_POSITIVE);
+        let (relative, sd) = match self.exposure {
+            Exposure::Known(_) => (DVector::zeros(jacobian.ncols()), 0.0),
+            Exposure::Free | Exposure::Expected(_) => {
+                (jacobian.tr_mul(&by_exposure) / square, exposure / square.sqrt())
+            }
+            Exposure::Sum => (self.shares_of_sum(&terms, &slopes, &now, &by_unknown), 0.0),
+        };
+        // Effect of a change of the spectrum beyond what a change of exposure compensates.
+        jacobian.ger(-1.0, &by_exposure, &relative, 1.0);
+        LinearisedFacets {
+            residuals: self.left_over(exposure, &values),
+            jacobian,
+            exposure: FittedExposure { value: exposure, slopes: -exposure * relative, sd },
+            second: SecondDerivatives { exposure, amounts, parts, slopes, curvatures, emitted },
+        }
+    }
+
+    /// `Σ λᵢ∇²mᵢ` at the exposure of that point.
+    #[must_use]
+    pub fn curvature(&self, at: &SecondDerivatives, multipliers: &DVector<f64>) -> Curvature {
+        let multipliers = &self.of_facets(multipliers).into_owned();
+        let (now, by_unknown) = (at.amounts.values(), at.amounts.slopes());
+        let mixed = by_unknown
+            .column_iter()
+            .map(|amounts| at.exposure * self.channels.along(multipliers, &at.slopes, &amounts.into_owned()));
+        let mut mixed: Vec<_> = mixed.collect();
+        let scene = self.scene.unknowns().len();
+        let mut unknowns = DMatrix::zeros(self.unknowns(), self.unknowns());
+        unknowns
+            .view_mut((0, 0), (scene, scene))
+            .copy_from(&(at.exposure * at.amounts.curvature(&at.parts.tr_mul(multipliers))));
+        if let Some(Emitted { sent, exciting, made: Made { terms, slopes, .. } }) = &at.emitted {
+            let along = |terms: &DMatrix<f64>, amounts: &DVector<f64>| {
+                at.exposure * self.channels.along(multipliers, terms, amounts)
+            };
+            let by_fraction = along(terms, &now);
+            let count = sent.slopes.ncols();
+            unknowns.view_mut((scene, scene), (count, count)).copy_from(&sent.curvature(&by_fraction));
+            let of_slopes = along(slopes, &now);
+            mixed.extend(sent.slopes.column_iter().map(|by| by.component_mul(&of_slopes)));
+            let [by_exciting, slopes_by_exciting] =
+                [terms, slopes].map(|terms| scaled_columns(terms, &exciting.slopes));
+            for (n, amounts) in by_unknown.column_iter().enumerate() {
+                let amounts = amounts.into_owned();
+                let mut both = sent.slopes.tr_mul(&along(terms, &amounts));
+                both[EXCITING_PLACE] = sent.fraction.dot(&along(&by_exciting, &amounts));
+                unknowns.view_mut((scene, n), (count, 1)).copy_from(&both);
+                unknowns.view_mut((n, scene), (1, count)).tr_copy_from(&both);
+            }
+            let mut of_exciting = sent.slopes.tr_mul(&along(&by_exciting, &now));
+            of_exciting[EXCITING_PLACE] =
+                sent.fraction.dot(&along(&scaled_columns(terms, &exciting.bends), &now));
+            let place = scene + EXCITING_PLACE;
+            unknowns.view_mut((scene, place), (count, 1)).copy_from(&of_exciting);
+            unknowns.view_mut((place, scene), (1, count)).tr_copy_from(&of_exciting);
+            mixed[place] = sent.fraction.component_mul(&along(&slopes_by_exciting, &now));
+        }
+        Curvature {
+            slopes: at.exposure * self.channels.along(multipliers, &at.slopes, &now),
+            reflectance: at.exposure * self.channels.along(multipliers, &at.curvatures, &now),
+            mixed: if mixed.is_empty() {
+                DMatrix::zeros(at.slopes.nrows(), 0)
+            } else {
+                DMatrix::from_columns(&mixed)
+            },
+            unknowns,
+        }
+    }
+
+    /// Sum over all facets and channels, per waveband.
+    fn sum_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>) -> DVector<f64> {
+        self.channels.sum_of(terms, &self.sums.sources, amounts)
+    }
+
+    /// Derivatives of the logarithm of that sum, columns as in the Jacobian.
+    fn shares_of_sum(
+        &self,
+        terms: &DMatrix<f64>,
+        slopes: &DMatrix<f64>,
+        amounts: &DVector<f64>,
+        by_unknown: &DMatrix<f64>,
+    ) -> DVector<f64> {
+        let by_reflectance = self.sum_of(slopes, amounts);
+        let by_unknown =
+            by_unknown.column_iter().map(|amounts| self.sum_of(terms, &amounts.into_owned()).sum());
+        let all: Vec<f64> = by_reflectance.iter().copied().chain(by_unknown).collect();
+        DVector::from_vec(all) / self.sum_of(terms, amounts).sum().max(f64::MIN_POSITIVE)
+    }
+}
