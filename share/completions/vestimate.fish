@@ -3,7 +3,7 @@ complete -c vestimate -l smoothness -d 'Weight of the squared second differences
 complete -c vestimate -l noise-sd -d 'Standard deviation of the noise of every facet, on the scale of its value; auto: from the samples, else from what no reflectance explains' -r
 complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value, 0 to 1 [default: 3e-4 for photographs, 0 for computed facets]' -r
 complete -c vestimate -l exposure -d 'Pixel value of a perfect white diffuser facing the sun; free: fit it; sum: normalise by sums, as in the paper [default: the sample\'s, else free]' -r
-complete -c vestimate -l fit -d 'Scene parameters to fit, comma-separated; the scene\'s values are the prior means [default: auto for photographs that an ideal fold does not explain, else none]' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
+complete -c vestimate -l fit -d 'Scene parameters to fit, comma-separated, each expected near what the scene states [default: auto for photographs, else none]' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
 angle\t'Angle between the panels'
 tilt\t'Angle of the sun off the bisecting plane'
 sky\t'Amount of skylight, and its colour unless the scene has a sky illuminant'

@@ -182,7 +182,8 @@ impl<'a> Inference<'a> {
         if self.is_auto {
             return Ok(self.judged(facets, real, doubts));
         }
-        doubts.extend(ignored_findings(&real.findings));
+        let fit = self.model.unknowns().iter().map(|expected| expected.unknown);
+        doubts.extend(ignored_findings(&real.findings, fit));
         let estimate = Estimate { without_bounces: real.without_bounces, ..ideal()? };
         Ok(self.judged(facets, estimate, doubts))
     }

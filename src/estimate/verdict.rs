@@ -10,7 +10,7 @@ use super::Estimate;
 pub use super::doubt::{Doubt, EXPLAINED, Level};
 use super::photograph::Finding;
 use super::photograph::priors::Priors;
-use super::unknowns::Normal;
+use super::unknowns::{Normal, Unknown};
 use crate::error::{Error, Result};
 
 /// Reduced chi above which the scene cannot be right.
@@ -151,14 +151,18 @@ pub fn unusual_findings(estimate: &Estimate) -> Vec<Doubt> {
     unusual.map(|finding| Doubt::new(format!("{}, more than usual", finding.what), finding.remedy)).collect()
 }
 
-/// Findings about the photograph that the estimate does not allow for.
+/// Findings about the photograph that an estimate does not allow for, as only those of `fit` were unknown.
 #[must_use]
-pub fn ignored_findings(findings: &[Finding]) -> Vec<Doubt> {
+pub fn ignored_findings<'f>(
+    findings: &[Finding],
+    fit: impl Iterator<Item = &'f Unknown> + Clone,
+) -> Vec<Doubt> {
+    let is_ignored = |finding: &&Finding| !fit.clone().any(|unknown| finding.unknown == Some(unknown));
     let doubt = |finding: &Finding| {
-        let because = format!("{}, which the estimate does not allow for", finding.what);
-        Doubt::new(because, format!("{}, or leave --fit out", finding.remedy))
+        let because = format!("{}; the estimate does not allow for that", finding.what);
+        Doubt::new(because, format!("leave --fit out; otherwise {}", finding.remedy))
     };
-    findings.iter().map(doubt).collect()
+    findings.iter().filter(is_ignored).map(doubt).collect()
 }
 
 /// Panels between which probably no light bounces.

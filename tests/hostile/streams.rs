@@ -142,6 +142,21 @@ fn streams() {
                 1,
                 &["-:1", "angle"],
             ),
+            case(
+                "vkernel --sky only | vforward --reflectance 0.5 | vestimate --fit sky",
+                1,
+                &["-:1", "there is no sun"],
+            ),
+            case(
+                "vkernel | vforward --reflectance 0.5 --illuminant A | vestimate --fit sky",
+                1,
+                &["-:1", "--fit sky has nothing to fit"],
+            ),
+            case(
+                "vkernel | vforward --reflectance 0.5 --illuminant E | vestimate --fit daylight",
+                1,
+                &["-:1", "--fit daylight has nothing to fit"],
+            ),
             case("vestimate good.ndjson --plan --camera nikon-d5100", 2, &["--camera", "already"]),
             case("vestimate good.ndjson --camera nikon-d5100", 2, &["--plan"]),
             case("vestimate good.ndjson --plan --prior none", 2, &["--plan", "--prior"]),

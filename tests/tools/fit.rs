@@ -58,6 +58,17 @@ fn a_sky_and_a_tilt_that_nobody_knew_are_found() {
     }
 }
 
+/// In a lamp's light the amount of a stray sky is found if its illuminant is stated.
+#[test]
+fn a_sky_beside_a_lamp_is_found() {
+    let found = samples(
+        "vkernel --sky 0.3 | vforward --reflectance cc24:orange cc24:blue --noise-sd 1e-3 --illuminant A \
+            --sky-illuminant D65 | vestimate -q --fit sky",
+    );
+    let errors = errors(&found, "sky", 0.3);
+    assert!(errors.len() == 2 && errors.iter().all(|error| error.abs() < 3.0), "{errors:?}");
+}
+
 #[test]
 fn a_wrong_angle_is_found() {
     let shot = mistaken("--angle-deg 47", "", "--angle-deg 45");

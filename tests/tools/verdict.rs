@@ -111,11 +111,15 @@ fn a_wrong_angle_that_is_to_be_believed_is_doubtful() {
             StatedScene { angle_deg, flags: "--fit none", ..AS_IT_IS },
         );
         assert_eq!(one.level, "doubtful", "{one:?}");
-        let found = "which the estimate does not allow for";
+        let found = "the estimate does not allow for that";
         assert!(one.because.contains("the fold is open by") && one.because.contains(found), "{one:?}");
     }
-    let one = judged("50°, --fit none", StatedScene { flags: "--fit none", ..AS_IT_IS });
-    assert_eq!(one.level, "good", "{one:?}");
+    for flags in ["--fit none", "--fit angle"] {
+        let one = judged(&format!("50°, {flags}"), StatedScene { flags, ..AS_IT_IS });
+        assert_eq!(one.level, "good", "{one:?}");
+    }
+    let one = judged("48°, --fit angle", StatedScene { angle_deg: 48.0, flags: "--fit angle", ..AS_IT_IS });
+    assert!(!one.because.contains("does not allow for"), "what is fitted is allowed for: {one:?}");
 }
 
 /// Facets rarely show that another light or camera is stated than the photograph's: the verdict names what it

@@ -69,8 +69,8 @@ struct Args {
     /// in the paper [default: the sample's, else free]
     #[arg(long, value_name = "X|free|sum", value_parser = settings::exposure)]
     exposure: Option<Exposure>,
-    /// Scene parameters to fit, comma-separated; the scene's values are the prior means [default: auto
-    /// for photographs that an ideal fold does not explain, else none]
+    /// Scene parameters to fit, comma-separated, each expected near what the scene states [default: auto
+    /// for photographs, else none]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = settings::fit())]
     fit: Vec<&'static Flag>,
     /// Estimate photographs of one sheet together: group by FIELD, or join the listed IDs. Without a

@@ -61,6 +61,7 @@ pub fn findings(shifts: &[DVector<f64>], residuals: &DVector<f64>, sd: f64) -> V
         // open
         let open = (1.0 - sd * sd * shift.norm_squared()).max(0.0);
         (off > LEAST && off > 2.0 * sd * open.sqrt()).then(|| Finding {
+            unknown: None,
             what: format!(
                 "end {} {} is about {:.1} % of a panel's depth from where it is marked",
                 n / NAMES.len(),

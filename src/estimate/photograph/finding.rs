@@ -1,9 +1,13 @@
 //! Deviations of a photograph from the ideal.
 
-/// A deviation of a photograph from the ideal. The estimate allows for it, but a photograph without it
-/// reveals more.
+use crate::estimate::unknowns::Unknown;
+
+/// A deviation of a photograph from the ideal. An estimate of a real sheet allows for it, but a photograph
+/// without it reveals more.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
+    /// The unknown that deviates; `None` for corners and the kind of day.
+    pub unknown: Option<&'static Unknown>,
     /// What is wrong.
     pub what: String,
     /// What to do.

@@ -6,6 +6,7 @@ use super::finding::Finding;
 use super::hypotheses::Hypothesis;
 use super::number::Number;
 use crate::estimate::Fitted;
+use crate::estimate::unknowns::Scale;
 
 /// Deviations from the ideal are reported above this many standard deviations.
 const SURE: f64 = 2.0;
@@ -22,6 +23,7 @@ pub fn of_day(DayEstimate { day, .. }: DayEstimate) -> Option<Finding> {
         Day::Shade => "the light is that of a blue sky: the sheet is in the shade",
     };
     Some(Finding {
+        unknown: None,
         what: what.to_owned(),
         remedy: "photograph it in direct sunlight to learn more",
         is_unusual: false,
@@ -35,18 +37,25 @@ pub fn of_unknowns(fitted: &[Fitted], stated: &StatedScene, hypothesis: Hypothes
     let found = |one: &Fitted| {
         let number = numbers.iter().find(|number| number.unknown == one.unknown)?;
         let (symptom, from_usual) = (number.effect.symptom.as_ref()?, number.normal(one.value).abs());
-        let off = (one.value - (symptom.ideal)(stated)?).abs();
-        let is_noteworthy = one.supported && off >= symptom.least && off > SURE * one.sd;
-        is_noteworthy
-            .then(|| (off / one.sd, from_usual > UNUSUAL, (symptom.words)(one, stated), symptom.remedy))
+        let ideal = (symptom.ideal)(stated)?;
+        let off = (one.value - ideal).abs();
+        let least = if one.unknown.scale == Scale::Logarithm { symptom.least * ideal } else { symptom.least };
+        let is_noteworthy = one.supported && off >= least && off > SURE * one.sd;
+        let finding = || Finding {
+            unknown: Some(one.unknown),
+            what: (symptom.words)(one, stated),
+            remedy: symptom.remedy,
+            is_unusual: from_usual > UNUSUAL,
+        };
+        is_noteworthy.then(|| (off / one.sd, finding()))
     };
     let mut all: Vec<_> = fitted.iter().filter_map(found).collect();
-    all.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
+    all.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let mut findings: Vec<Finding> = Vec::new();
-    for (_, is_unusual, what, remedy) in all {
-        match findings.iter_mut().find(|one| one.what == what) {
-            Some(same) => same.is_unusual |= is_unusual,
-            None => findings.push(Finding { what, remedy, is_unusual }),
+    for (_, finding) in all {
+        match findings.iter_mut().find(|one| one.what == finding.what) {
+            Some(same) => same.is_unusual |= finding.is_unusual,
+            None => findings.push(finding),
         }
     }
     findings

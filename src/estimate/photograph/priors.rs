@@ -74,7 +74,7 @@ priors! {
     sky: 0.12,
     /// The same in haze or under thin cloud: a third to two thirds of the light is diffuse.
     hazy_sky: 0.6,
-    /// Amount of uniform skylight in a computed scene for which none was stated.
+    /// Amount of uniform skylight in a picture of an ideal fold for which none was stated.
     even_sky: 0.4,
     /// Standard deviation of skylight, as a share of it.
     sky_sd: 0.5,

@@ -33,8 +33,12 @@ pub static ANGLE: Unknown = Unknown {
     }),
 };
 
-/// Largest distance between the folds among which light is interpolated, as a share of the angle.
+/// Distance between the folds among which light is interpolated, degrees, at least: tails reach further than
+/// a small standard deviation. At most it is this share of the angle, and of what it lacks to a flat sheet.
+const APART_DEG: f64 = 2.0;
 const APART_MOST: f64 = 0.1;
+/// Folds that are nearer to each other are one.
+const APART_LEAST_DEG: f64 = 1e-3;
 
 /// The fold is one of three, or lies between them.
 fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources) -> Result<()> {
@@ -42,8 +46,8 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
         let problem = "--fit angle needs a scene from vkernel --mesh auto; make it again";
         return Err(Error::field("accuracy.mesh", problem));
     };
-    let apart = (2.0 * sd).min(APART_MOST * mean);
-    if mean + apart > 180.0 {
+    let apart = (2.0 * sd).max(APART_DEG).min(APART_MOST * mean.min(180.0 - mean));
+    if apart < APART_LEAST_DEG {
         return Err(Error::field("geometry.angle_deg", format!("{mean} is flat: no angle to fit")));
     }
     let nodes = [mean - apart, mean, mean + apart];

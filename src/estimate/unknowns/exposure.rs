@@ -24,10 +24,10 @@ pub static EXPOSURE: Unknown = Unknown {
         set: |conditions, value| conditions.exposure = value,
         symptom: Some(Symptom {
             ideal: |stated| stated.exposure.filter(|_| !stated.by_chart),
-            least: 0.02,
+            least: 0.05,
             words: |Fitted { value, sd, .. }, stated| {
-                let stated = stated.exposure.map(|stated| format!(", not {stated} as stated"));
-                format!("the facets show an exposure of {value:.2} ± {sd:.2}{}", stated.unwrap_or_default())
+                let stated = stated.exposure.unwrap_or(1.0);
+                format!("the facets show an exposure of {value:.3} ± {sd:.3}, not {stated} as stated")
             },
             remedy: "leave --exposure out, \
                      or measure it again with a white card or chart in the sheet's light",

@@ -1,7 +1,7 @@
 //! A fold in its light, as a model with sources whose amounts depend on unknowns.
 
 use super::sources::{Factors, FoldInLight, Sources};
-use super::{Expected, Factor, Flag, Role, SceneModel, Unknown};
+use super::{Expectation, Expected, Factor, Flag, Role, SceneModel, Unknown};
 use crate::error::{Error, Result};
 use crate::forward::FacetModel;
 
@@ -9,25 +9,28 @@ impl SceneModel {
     /// The model of facet RGB on a fold, with those of `fit` unknown that the scene leaves open.
     ///
     /// # Errors
-    /// [`crate::Error::Field`] if they cannot be fitted in the scene.
+    /// [`crate::Error::Field`] if they cannot be fitted in the scene, or it leaves open none of those that
+    /// are fitted together.
     pub fn of_fold(scene: &FoldInLight, fit: &[&'static Unknown]) -> Result<Self> {
-        let (mut sources, mut unknowns) = (Sources::of(scene), Vec::new());
-        for unknown in fit {
-            let (Role::Sources { enter }, Some(effect)) = (&unknown.role, &unknown.photograph) else {
-                continue;
-            };
-            if let Some(prior) = (effect.prior)(&scene.stated) {
-                let tail = (effect.known)(&scene.stated).tail(scene.stated.priors);
-                enter(scene, prior.normal, &mut sources)?;
-                unknowns.push(Expected { unknown, prior: prior.with_tail(tail) });
-            }
-        }
-        let is_fitted = |flag: &Flag| unknowns.iter().any(|one| one.unknown.flag == flag);
-        let asked = fit.iter().filter(|unknown| matches!(unknown.role, Role::Sources { .. }));
-        if let Some(Unknown { flag, .. }) = asked.into_iter().find(|unknown| !is_fitted(unknown.flag)) {
-            let problem =
-                format!("--fit {} needs one daylight; leave it out, or state --illuminant", flag.value);
+        let asked = || fit.iter().filter(|unknown| matches!(unknown.role, Role::Sources { .. }));
+        let expected = |unknown: &&'static Unknown| {
+            let effect = unknown.photograph.as_ref()?;
+            let tail = (effect.known)(&scene.stated).tail(scene.stated.priors);
+            let prior = Expectation::from((effect.prior)(&scene.stated)?.normal).with_tail(tail);
+            Some(Expected { unknown, prior })
+        };
+        let unknowns: Vec<Expected> = asked().filter_map(expected).collect();
+        let is_open = |flag: &Flag| unknowns.iter().any(|one| one.unknown.flag == flag);
+        if let Some(Unknown { flag, .. }) = asked().find(|unknown| !is_open(unknown.flag)) {
+            let light = "in light that is not one daylight";
+            let problem = format!("{light} --fit {} has nothing to fit; leave it out", flag.value);
             return Err(Error::field("illuminants", problem));
+        }
+        let mut sources = Sources::of(scene);
+        for Expected { unknown, prior } in &unknowns {
+            if let Role::Sources { enter } = unknown.role {
+                enter(scene, prior.normal, &mut sources)?;
+            }
         }
         let (lit, factors): (Vec<_>, Vec<_>) = sources.on_states(&scene.lighting.light)?.into_iter().unzip();
         let responses: Vec<_> = sources.states.iter().map(|state| state.response.clone()).collect();

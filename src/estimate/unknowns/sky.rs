@@ -4,7 +4,7 @@ use super::sources::Source;
 use super::{
     Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Unknown, Whose,
 };
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::estimate::photograph::StatedScene;
 
 /// Irradiance from the sky on a plane facing the sun, relative to the sun's.
@@ -31,6 +31,10 @@ pub static SKY: Unknown = Unknown {
 
 /// Replaces any sky of the scene by one of irradiance 1 in an unknown amount.
 fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
+    if scene.stated.sun <= 0.0 {
+        let problem = "there is no sun to which --fit sky could relate the sky; leave it out";
+        return Err(Error::field("light.sun", problem));
+    }
     sources.replace(|source| match source.lamp {
         Lamp::Sky { .. } => Vec::new(),
         Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => vec![source],
@@ -41,6 +45,8 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
 }
 
 fn prior(stated: &StatedScene) -> Option<Expectation> {
+    // a lamp shines without a sky, unless one is stated
+    let has_sky = stated.daylight.is_some() || stated.has_sky_illuminant;
     let with_sun = stated.sky.filter(|_| stated.sun > 0.0);
-    stated.daylight.and_then(|_| stated.day.sky(stated.priors, with_sun)).map(Normal::into)
+    stated.day.sky(stated.priors, with_sun).filter(|_| has_sky).map(Normal::into)
 }

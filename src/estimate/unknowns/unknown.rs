@@ -32,7 +32,7 @@ pub struct Unknown {
     pub scale: Scale,
     /// Its role in the model of an ideal fold.
     pub role: Role,
-    /// Its effect in the model of a photograph of a real sheet.
+    /// Its effect in the model of a photograph of a real sheet, and its prior everywhere.
     pub photograph: Option<Effect>,
 }
 
@@ -65,7 +65,7 @@ pub enum Whose {
     Lens,
 }
 
-/// Source of prior knowledge about a photograph.
+/// Source of prior knowledge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
     /// Usual photographs.
@@ -103,7 +103,7 @@ impl Known {
 pub struct Symptom {
     /// Ideal value; `None` if there is none.
     pub ideal: fn(&StatedScene) -> Option<f64>,
-    /// Least difference from it worth reporting.
+    /// Least difference from it worth reporting; a share of it for factors.
     pub least: f64,
     /// What is wrong.
     pub words: fn(&Fitted, &StatedScene) -> String,

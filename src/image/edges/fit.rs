@@ -98,8 +98,9 @@ impl Fit {
     /// Two planes of light with an edge between them.
     ///
     /// # Arguments
-    /// - `ends`: sums over the pixels up to where the edge begins to cross them, up to where the fraction
-    ///   beyond it becomes another polynomial, and up to where all is beyond; `all`: over all pixels.
+    /// - `ends`: sums over the pixels up to where the edge begins to cross them, up to the two places where
+    ///   the fraction beyond it becomes another polynomial, and up to where they are wholly beyond; `all`:
+    ///   over all pixels.
     /// - `shares`: these fractions.
     pub fn of_planes(ends: [&Sums; 4], shares: [Share; 3], all: &Sums) -> Self {
         let far = |n: usize| (all.powers[n] - ends[3].powers[n], all.light[n] - ends[3].light[n]);

@@ -17,6 +17,8 @@ pub(super) const BLURS: usize = 4;
 /// Clearance between the sheet pixels examined and an edge, for each blur, px, in addition to
 /// [`CLEARANCE_PX`].
 const CLEAR_PX: [f64; BLURS] = [0.0, 0.0, 3.0, 6.75];
+/// Least extent of a pixel that its corners have across an edge, px: steeper shares lose digits in sums.
+const NARROWEST_PX: f64 = 0.02;
 /// Residuals below this fraction of the light count as zero.
 const EXACT: f64 = 1e-3;
 /// Largest variation of a sheet's light up to its edge, relative to that further inwards.
@@ -130,7 +132,7 @@ impl Piece {
 
 /// Extents across a line with this unit normal of a pixel widened by `blur_px`, the longer first.
 fn spread_px(normal: &Vector2<f64>, blur_px: f64) -> [f64; 2] {
-    [normal.amax() + blur_px, normal.amin().max(1e-3) + blur_px]
+    [normal.amax() + blur_px, normal.amin().max(NARROWEST_PX) + blur_px]
 }
 
 /// Fraction of a pixel with these extents across a line that lies beyond it, as a polynomial of how far its
