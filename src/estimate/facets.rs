@@ -5,7 +5,9 @@ use std::ops::AddAssign;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives};
+use super::data::{
+    Curvature, FacetData, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives, TELLING_CHANNELS,
+};
 use super::emission::{Emission, Fall, Sent};
 use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
@@ -17,8 +19,6 @@ use crate::solve::posterior::{Evaluated, Linearised, Model};
 /// reflects some light of all wavelengths, whatever is beneath. Between 0.003 and 0.01 the value matters less
 /// to the coverage of error bars than the choice of test set.
 const SURFACE: f64 = 0.006;
-/// Number of channels, counted over all lights, that distinguish classes.
-const TELLING_CHANNELS: usize = 3;
 /// A mode counts as found within this many standard deviations.
 const TOLERANCE: f64 = 1e-3;
 

@@ -239,6 +239,36 @@ fn a_brightener_is_told_from_what_is_reflected() {
     }
 }
 
+/// With a channel or two, many spectra have one effect: none of them is taken for light that a sheet emits.
+#[test]
+fn few_channels_tell_of_no_fluorescence() {
+    let folder = Workdir::new();
+    for channels in [1, 2] {
+        let run = folder.sh(&format!(
+            "awk -v n={channels} 'BEGIN {{
+                 printf \"nm\"
+                 for (k = 0; k < n; k++) printf \",c%d\", k
+                 print \"\"
+                 for (nm = 400; nm <= 700; nm += 5) {{
+                     printf \"%d\", nm
+                     for (k = 0; k < n; k++) {{
+                         off = 2 * ((nm - 400) * n / 300 - k - 0.5)
+                         printf \",%.6f\", exp(-off * off / 2)
+                     }}
+                     print \"\"
+                 }}
+             }}' > camera.csv
+             vkernel | vforward -q --reflectance cc24 --camera camera.csv --noise-sd 1e-3 | vestimate -q"
+        ));
+        let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let samples: Vec<Value> = records.filter(|record| record["kind"] == "sample").collect();
+        assert_eq!(samples.len(), 24, "{run:?}");
+        for sample in samples {
+            assert!(sample["estimate"]["fluorescence"].is_null(), "{channels}: {}", sample["id"]);
+        }
+    }
+}
+
 #[test]
 fn what_visible_light_excites_is_named_and_never_good() {
     if !is_there(FOLDS) {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::FacetData;
+use super::{FacetData, TELLING_CHANNELS};
 use crate::estimate::Exposure;
 use crate::estimate::emission::terms::{ExcitingBounces, Made, made};
 use crate::estimate::emission::{Emission, Fall, Sent, UNKNOWNS};
@@ -23,14 +23,16 @@ impl FacetData<'_> {
     }
 
     /// The same data for a sheet that may emit light, with the unknowns of the emission after those of the
-    /// scene. `None` if the exposure is determined by sums, or a part of the surface is known.
+    /// scene. `None` if the exposure is determined by sums, a part of the surface is known, or there are too
+    /// few channels.
     #[must_use]
     pub fn emitting(&self, emission: &Emission) -> Option<Self> {
         self.may_emit().then(|| Self { emission: Some(emission.clone()), ..self.clone() })
     }
 
     fn may_emit(&self) -> bool {
-        self.may_fluoresce && self.exposure != Exposure::Sum && self.scene.facets().signed_poles().is_some()
+        let is_told = self.channels() >= TELLING_CHANNELS && self.exposure != Exposure::Sum;
+        self.may_fluoresce && is_told && self.scene.facets().signed_poles().is_some()
     }
 
     /// Changes of the residuals of a sheet without emission caused by each of these emissions at each of its
