@@ -31,8 +31,8 @@ impl FacetData<'_> {
     }
 
     fn may_emit(&self) -> bool {
-        let is_told = self.channels() >= TELLING_CHANNELS && self.exposure != Exposure::Sum;
-        self.may_fluoresce && is_told && self.scene.facets().signed_poles().is_some()
+        let is_open = self.channels() >= TELLING_CHANNELS && self.exposure != Exposure::Sum;
+        self.may_fluoresce && is_open && self.scene.facets().signed_poles().is_some()
     }
 
     /// Changes of the residuals of a sheet without emission caused by each of these emissions at each of its
