@@ -155,6 +155,8 @@ impl<'a> PhotographedFold<'a> {
                 sd: (sd / exposure).hypot(self.priors.exposure_shown_sd),
             }),
             by_chart: by_chart && exposure.is_some(),
+            // what surrounds a photograph in a lamp's light is not modelled
+            has_sky_illuminant: daylight.is_some() && optics.sky.is_some(),
             ..self.setting.stated(self.priors, values.ncols(), daylight)
         };
         let sheets = || sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref());

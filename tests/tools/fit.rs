@@ -69,6 +69,21 @@ fn a_sky_beside_a_lamp_is_found() {
     assert!(errors.len() == 2 && errors.iter().all(|error| error.abs() < 3.0), "{errors:?}");
 }
 
+/// In a photograph by a lamp's light no sky is modelled, so that none is reported.
+#[test]
+fn a_sky_beside_a_lamp_is_not_found_in_a_photograph() {
+    let found = samples(
+        "light='--illuminant A --sky-illuminant D65'
+         vkernel --sky 0.3 -o scene.json
+         vforward scene.json -q --reflectance cc24:orange --specular-weight 0.4 --photon-noise 0.007 $light \
+             --render sheet.tif --render-size 180x135 | tail -n 1 > corners.json
+         vextract -q sheet.tif --scene scene.json --camera canon-5d-mark-ii --regions corners.json $light |
+             vestimate -q",
+    );
+    let fit = &found[0]["estimate"]["fit"];
+    assert!(fit["specular_weight"].is_object() && fit["sky"].is_null(), "{fit}");
+}
+
 #[test]
 fn a_wrong_angle_is_found() {
     let shot = mistaken("--angle-deg 47", "", "--angle-deg 45");

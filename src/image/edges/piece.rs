@@ -156,8 +156,36 @@ fn shifted([constant, slope, bend]: Share, line: f64) -> Share {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)] // a test stops at the first surprise
+
     use super::*;
     use proptest::prelude::*;
+
+    /// Two planes of light that pixels near the edge mix by their shares leave nothing, and leave something
+    /// where the edge is tried elsewhere.
+    #[test]
+    fn an_edge_explains_its_pixels_by_sums() {
+        for (blur_px, across) in [(0.0, Vector2::new(0.0, 1.0)), (2.0, Vector2::new(0.6, 0.8))] {
+            let (edge_px, width_px) = (1.3, 16.0);
+            let [wide, narrow] = spread_px(&across, blur_px);
+            let (outer, inner) = ((wide + narrow) / 2.0, (wide - narrow) / 2.0);
+            let ramp = |x: f64| x.max(0.0).powi(2) / 2.0;
+            let share = |z: f64| match z {
+                z if z >= outer => 1.0,
+                z => (ramp(z + outer) - ramp(z + inner) - ramp(z - inner)) / (wide * narrow),
+            };
+            let pixel = |k: u32| {
+                let distance = f64::from(k) * 0.0799 - 15.9;
+                let beyond = share(distance - edge_px);
+                let planes = [0.8 - 0.01 * distance, 0.1 + 0.02 * distance];
+                let light = planes[0] * (1.0 - beyond) + planes[1] * beyond;
+                (distance, Vector3::new(light, 0.5 * light, 0.3 + light))
+            };
+            let piece = Piece::new(0.5, width_px, (0..400).map(pixel).collect());
+            let left = |edge_px| piece.edge_residual(edge_px, [wide, narrow]).unwrap().amax();
+            assert!(left(edge_px) < 1e-6 && left(edge_px + 0.5) > 1e-3, "{blur_px}: {}", left(edge_px));
+        }
+    }
 
     proptest! {
         /// Against the mean over 400 x 400 points of the pixel.
