@@ -62,7 +62,7 @@ pub fn possible<H>(
         // a free exposure absorbs light from behind
         let is_absorbed = emission.origin() == Some(Origin::Behind) && data.fits_exposure();
         let may_be = || is_unexplained(plain, tempering) || is_hopeful(&test, changes, emission, &logit);
-        !is_absorbed && may_be()
+        emission.is_excited() && !is_absorbed && may_be()
     };
     let possible = iter::zip(bands, &changes).enumerate().filter(|(_, one)| is_possible(*one));
     possible.map(|(n, _)| n + 1).collect()

@@ -11,7 +11,7 @@ use super::photograph::hypotheses::Hypothesis;
 use super::photograph::sheet_models::SheetModel;
 use super::photograph::{Modes, Parts};
 use super::prior::Prior;
-use super::rival::{LN_AHEAD, Rival};
+use super::rival::{LN_AHEAD, Rival, ln_enough};
 use super::search::Search;
 use crate::camera::known_sensitivities;
 use crate::spectrum::WavelengthGrid;
@@ -104,5 +104,6 @@ pub fn rival_camera(parts: &Parts, modes: &Modes, others: &OtherCameras, prior: 
     });
     let by_classes: Vec<_> = by_classes.collect();
     (!by_classes.is_empty()).then_some(())?;
-    Rival::of(by_classes.into_iter(), search.ln_evidence_by_classes(&stated)? + ln_by_emission, LN_ODDS)
+    let ln_stated = search.ln_evidence_by_classes(&stated)? + ln_by_emission;
+    Rival::of(by_classes.into_iter(), ln_stated, ln_enough(LN_ODDS, *ln_by_emission))
 }

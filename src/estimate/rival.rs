@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::photograph::priors::Priors;
 use super::verdict::Doubt;
 
 /// Others are searched if linear models predict that facets may become this much more probable, and are
@@ -10,6 +11,14 @@ use super::verdict::Doubt;
 pub const LN_AHEAD: f64 = 1.0;
 /// Larger ratios are not reported exactly.
 const MOST_TIMES: f64 = 1e6;
+
+/// Log evidence ratio that outweighs a statement about a photograph, given one, `ln_odds`, for sheets without
+/// emission. That is higher than the odds that statements are right, as another light or camera may mimic
+/// effects that no model has. Emission mimics them, too: what it contributes takes the place of the excess.
+#[must_use]
+pub fn ln_enough(ln_odds: f64, ln_by_emission: f64) -> f64 {
+    Priors::USUAL.ln_odds_of_statement().max(ln_odds - ln_by_emission)
+}
 
 /// A light or a camera that is more probable than the stated one.
 #[derive(Clone, Debug, PartialEq)]

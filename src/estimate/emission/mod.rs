@@ -163,9 +163,32 @@ impl Backing {
 /// which the logits fall by the amount of the fall.
 const FALL_NM: f64 = 430.0;
 const FALL_WITHIN_NM: f64 = 30.0;
+/// Wavelength from which on power below [`FALL_NM`] stands for all that excites brighteners, and that power
+/// relative to the power at the peak of emission in daylight of 6500 K. Incandescent lamps have two thirds of
+/// it, and of daylight's ultraviolet; fluorescent lamps a fifth; white LEDs hardly any, unless violet ones
+/// excite their phosphors.
+const EXCITING_NM: f64 = 400.0;
+const EXCITING_DAYLIGHT: f64 = 0.92;
+/// Lights of less than this share of it are taken to excite no brightener: a usual one would emit less than
+/// two per cent of white.
+const LEAST_EXCITATION: f64 = 0.3;
 /// Lower limit on the power of a light relative to its mean: between the lines of a lamp f would be
 /// unbounded.
 const LEAST_POWER: f64 = 0.02;
+
+/// How much of light with this `power` excites brighteners, relative to daylight, at most 1.
+fn excitation(wavelengths_nm: &DVector<f64>, power: &DVector<f64>) -> f64 {
+    let absorbed = wavelengths_nm.map(|nm| if nm < EXCITING_NM { 0.0 } else { (FALL_NM - nm).max(0.0) });
+    let at_peak = power[nearest(wavelengths_nm, BRIGHTENER.peak_per_cm.mean)];
+    let exciting = power.dot(&absorbed) / absorbed.sum();
+    // wavebands that begin further on say nothing
+    if absorbed.sum() > 0.0 { (exciting / at_peak / EXCITING_DAYLIGHT).min(1.0) } else { 1.0 }
+}
+
+/// Index of the waveband nearest to a wavenumber.
+fn nearest(wavelengths_nm: &DVector<f64>, per_cm: f64) -> usize {
+    wavelengths_nm.map(|nm| (1e7 / nm - per_cm).abs()).imin()
+}
 
 /// A band on the wavebands of a scene, in its light. Its unknowns are standard normal numbers, in this order:
 /// size, peak, width, fall, reflectance at the exciting wavelengths.
@@ -175,8 +198,8 @@ pub struct Emission {
     band: Option<&'static Band>,
     /// All bands that a sheet may have.
     all: &'static [Band],
-    /// False in a light without ultraviolet, under which there is no brightener.
-    has_ultraviolet: bool,
+    /// How much of the light excites brighteners, relative to daylight, at most 1.
+    excitation: f64,
     wavelengths_nm: DVector<f64>,
     /// Power of the light at the usual peak, divided by that in every waveband.
     by_light: DVector<f64>,
@@ -229,7 +252,7 @@ impl Emission {
     #[must_use]
     pub fn all(wavelengths_nm: &[f64], power: &[f64], backing: Backing) -> Vec<Self> {
         let all = backing.bands();
-        let of = |band: Option<&'static Band>| Self::on(wavelengths_nm, power, (band, all), true);
+        let of = |band: Option<&'static Band>| Self::on(wavelengths_nm, power, (band, all));
         iter::once(None).chain(all.iter().map(Some)).map(of).collect()
     }
 
@@ -237,16 +260,16 @@ impl Emission {
         wavelengths_nm: &[f64],
         power: &[f64],
         (band, all): (Option<&'static Band>, &'static [Band]),
-        has_ultraviolet: bool,
     ) -> Self {
         let wavelengths_nm = DVector::from_column_slice(wavelengths_nm);
         let power = DVector::from_column_slice(power);
         let power = power.map(|own| own.max(LEAST_POWER * power.mean()));
+        let excitation = excitation(&wavelengths_nm, &power);
         let falling = wavelengths_nm.map(|nm| -(FALL_NM - nm).max(0.0) / FALL_WITHIN_NM);
         let mut own = Self {
             band,
             all,
-            has_ultraviolet,
+            excitation,
             wavelengths_nm,
             by_light: power.map(f64::recip),
             falling,
@@ -255,16 +278,26 @@ impl Emission {
         if let Some(Band { origin: Origin::Behind, .. }) = band {
             own.by_light.fill(1.0);
         } else if let Some(band) = band {
-            own.by_light *= power[own.nearest(band.peak_per_cm.mean)];
+            own.by_light *= power[nearest(&own.wavelengths_nm, band.peak_per_cm.mean)];
         }
         own.usual = own.at(&[0.0; UNKNOWNS]).fraction;
         own
     }
 
-    /// The same band in light of another relative `power`, with ultraviolet or without.
+    /// The same band in light of another relative `power`.
     #[must_use]
-    pub fn in_light(&self, power: &[f64], has_ultraviolet: bool) -> Self {
-        Self::on(self.wavelengths_nm.as_slice(), power, (self.band, self.all), has_ultraviolet)
+    pub fn in_light(&self, power: &[f64]) -> Self {
+        Self::on(self.wavelengths_nm.as_slice(), power, (self.band, self.all))
+    }
+
+    /// False for a brightener in light that hardly excites one.
+    #[must_use]
+    pub fn is_excited(&self) -> bool {
+        self.band.is_none_or(|band| self.excites(band))
+    }
+
+    fn excites(&self, band: &Band) -> bool {
+        band.origin != Origin::Ultraviolet || self.excitation >= LEAST_EXCITATION
     }
 
     /// What excites the band; `None` without emission.
@@ -299,15 +332,15 @@ impl Emission {
         let share = |band: &Band| match band.share {
             Share::OfAll(share) => share,
             Share::OfWhite(share) => {
-                let at_peak = logits[self.nearest(band.peak_per_cm.mean)];
+                let at_peak = logits[nearest(&self.wavelengths_nm, band.peak_per_cm.mean)];
                 share * logistic((at_peak - logit(PASTEL)) / PASTEL_LOGIT)
             }
         };
         match self.band {
             Some(band) => share(band).ln(),
             None => {
-                let may_be = |band: &&Band| self.has_ultraviolet || band.origin != Origin::Ultraviolet;
-                (1.0 - self.all.iter().filter(may_be).map(share).sum::<f64>()).ln()
+                let excited = self.all.iter().filter(|band| self.excites(band));
+                (1.0 - excited.map(share).sum::<f64>()).ln()
             }
         }
     }
@@ -324,11 +357,6 @@ impl Emission {
     pub fn peak(&self, fraction: &[f64]) -> usize {
         let power = DVector::from_column_slice(fraction).component_div(&self.by_light);
         power.imax()
-    }
-
-    /// Index of the waveband nearest to a wavenumber.
-    fn nearest(&self, per_cm: f64) -> usize {
-        self.wavelengths_nm.map(|nm| (1e7 / nm - per_cm).abs()).imin()
     }
 
     /// The effect of bounced exciting light on terms with these `poles`, for the unknowns `w`.
@@ -354,7 +382,8 @@ impl Emission {
             };
         };
         let part = logistic(band.size.mean + band.size.sd * w[0]);
-        let (ln_size, by_size) = ((band.most * part).ln(), band.size.sd * (1.0 - part));
+        let most = if band.origin == Origin::Ultraviolet { self.excitation * band.most } else { band.most };
+        let (ln_size, by_size) = ((most * part).ln(), band.size.sd * (1.0 - part));
         let peak = band.peak_per_cm.mean + band.peak_per_cm.sd * w[1];
         let width = (band.ln_width_per_cm.mean + band.ln_width_per_cm.sd * w[2]).exp();
         let (peak_sd, width_sd) = (band.peak_per_cm.sd / width, band.ln_width_per_cm.sd);
@@ -475,6 +504,21 @@ mod tests {
         let all = Emission::all(&grid(), &power, Backing::Black);
         let brightened = all[1].usual();
         assert!((brightened.imax(), all[0].peak(brightened.as_slice())) == (9, 6), "470 nm, 440 nm");
+    }
+
+    #[test]
+    fn brighteners_emit_in_light_that_excites_them() {
+        let in_light = |power: &dyn Fn(f64) -> f64| {
+            let power: Vec<f64> = grid().into_iter().map(power).collect();
+            let all = Emission::all(&grid(), &power, Backing::Black);
+            (all[1].is_excited(), all[1].usual()[6], all[2].is_excited()) // 440 nm
+        };
+        let (violet, blue) =
+            (|nm: f64| (-((nm - 410.0) / 20.0).powi(2)).exp(), |nm: f64| f64::from(nm > 425.0));
+        let [white, violet, blue] = [&|_| 1.0, &violet as &dyn Fn(f64) -> f64, &blue].map(in_light);
+        assert!(white.0 && violet.0 && !blue.0, "{white:?} {violet:?} {blue:?}");
+        assert!(white.1 > 0.05 && blue.1 < 0.01, "{white:?} {blue:?}");
+        assert!(white.2 && blue.2, "visible light excites dyes");
     }
 
     #[test]

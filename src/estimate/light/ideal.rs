@@ -11,7 +11,7 @@ use crate::estimate::Estimate;
 use crate::estimate::alternatives::Alternatives;
 use crate::estimate::data::FacetData;
 use crate::estimate::doubt::EXPLAINED;
-use crate::estimate::emission::{Emission, Origin};
+use crate::estimate::emission::Emission;
 use crate::estimate::facets::{Facets, Second};
 use crate::estimate::family::Family;
 use crate::estimate::fluorescence_search::{self, PRECISE, explains, possible};
@@ -104,9 +104,7 @@ impl<'a> Unlit<'_, 'a> {
     /// Adds the same for sheets with each band of emission that the most probable lights leave possible.
     fn add_emitting(&self, all: &mut Vec<Lit<'a>>, trace: &mut Trace) {
         let scene = self.data.scene();
-        let in_light = |emission: &Emission, light: usize| {
-            emission.in_light(&self.lights[light].power, self.has_ultraviolet(light))
-        };
+        let in_light = |emission: &Emission, light: usize| emission.in_light(&self.lights[light].power);
         // the most probable one, and others unlike it
         let is_tested = |(n, one): &(usize, &Lit)| *n == 0 || !self.lights[one.light].is_between;
         let tested = all.iter().enumerate().filter(is_tested).take(TESTED);
@@ -127,9 +125,7 @@ impl<'a> Unlit<'_, 'a> {
         for emission in possible.into_iter().map(|band| &scene.emissions()[band]) {
             let lit = |light: usize| emitting(self.lights[light].on(self.data), &in_light(emission, light));
             let lit = Alternatives::of((0..self.lights.len()).map(|light| move || lit(light)));
-            let is_excited = |light: &usize| {
-                emission.origin() != Some(Origin::Ultraviolet) || self.has_ultraviolet(*light)
-            };
+            let is_excited = |light: &usize| in_light(emission, *light).is_excited();
             let lights: Vec<usize> = (0..self.lights.len()).filter(is_excited).collect();
             let mut lit = self.in_each(&lit, &lights, (None, most(all)), trace);
             lit.retain(|one| explains(&one.data, &one.sorted, self.tempering));
@@ -139,11 +135,6 @@ impl<'a> Unlit<'_, 'a> {
         let least = most(all) + fluorescence_search::LN_EVIDENCE_HOPELESS;
         let is_plain = |one: &Lit| one.data.emission().is_none_or(|emission| emission.origin().is_none());
         all.retain(|one| is_plain(one) || one.sorted.ln_weight() >= least);
-    }
-
-    /// True for daylight: lamps have little or no ultraviolet. Of candidates that the user named, each may.
-    fn has_ultraviolet(&self, light: usize) -> bool {
-        self.lights[light].is_any_daylight || !self.lights.iter().any(|light| light.is_any_daylight)
     }
 
     /// Facets in each of these lights, in order of evidence under all spectra, each started from the result

@@ -16,7 +16,7 @@ use crate::estimate::photograph::hypotheses::Hypothesis;
 use crate::estimate::photograph::sheet_models::SheetModel;
 use crate::estimate::photograph::{Modes, Parts, Photographs};
 use crate::estimate::prior::Prior;
-use crate::estimate::rival::{LN_AHEAD, Rival};
+use crate::estimate::rival::{LN_AHEAD, Rival, ln_enough};
 use crate::estimate::search::{Search, Sorted};
 
 /// Log evidence ratio that outweighs a statement, four hundred to one: more than for computed facets, as a
@@ -98,7 +98,8 @@ pub fn rival_in_photograph(parts: &Parts, modes: &Modes, others: &Others, prior:
         Search::new(&photographs.in_light_of(parts), prior).ln_evidence_by_classes(tried)
     };
     let of_lights = ahead.iter().filter_map(|(lit, best)| Some((lit.name.clone(), by_classes(lit, best)?)));
-    Rival::of(of_lights, by_classes(&stated, &best_of_stated)? + ln_by_emission, LN_ODDS)
+    let ln_stated = by_classes(&stated, &best_of_stated)? + ln_by_emission;
+    Rival::of(of_lights, ln_stated, ln_enough(LN_ODDS, *ln_by_emission))
 }
 
 impl Lit {

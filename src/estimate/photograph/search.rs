@@ -315,7 +315,7 @@ fn add_emitting(search: &mut Search<Photographs>, family: &Photographs, all: &mu
     let (mut found, mut ln_gains) = (Vec::new(), vec![0.0]);
     for (place, emission) in first.emissions().iter().enumerate() {
         let is_tried = match emission.origin() {
-            Some(Origin::Ultraviolet | Origin::Visible) => true,
+            Some(Origin::Ultraviolet | Origin::Visible) => emission.is_excited(),
             Some(Origin::Behind) => is_exposure_known,
             None => false,
         };
