@@ -12,8 +12,8 @@
 //! ## Reference
 //! J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed. (2006), sections 10.3, 18.1 and 18.3.
 
-use std::cell::OnceCell;
 use std::cmp::Ordering;
+use std::sync::OnceLock;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -93,14 +93,14 @@ pub struct Linearised<S> {
     /// For [`Model::curvature`].
     pub second: S,
     /// The lower triangle of `JᵀJ`, computed once it is asked for.
-    squares: OnceCell<DMatrix<f64>>,
+    squares: OnceLock<DMatrix<f64>>,
 }
 
 impl<S> Linearised<S> {
     /// A model with these residuals and derivatives.
     #[must_use]
     pub fn new(residuals: DVector<f64>, jacobian: DMatrix<f64>, second: S) -> Self {
-        Self { residuals, jacobian, second, squares: OnceCell::new() }
+        Self { residuals, jacobian, second, squares: OnceLock::new() }
     }
 
     /// The lower triangle of `I + weight·JᵀJ`; nothing else of it is used.

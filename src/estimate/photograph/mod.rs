@@ -32,6 +32,7 @@ pub mod priors;
 pub mod search;
 pub mod sheet_models;
 pub mod sheets;
+mod sorting;
 mod unmodelled;
 mod whitened;
 

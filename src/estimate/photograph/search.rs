@@ -8,10 +8,10 @@ use super::corners;
 use super::day::{Day, DayEstimate};
 use super::family::{Photographs, Seen};
 use super::findings::{of_day, of_unknowns};
-use super::hypotheses::{Hypothesis, dull_days, hypotheses, hypotheses_without_bounces, usual_hypotheses};
-use super::imperfection::Imperfection;
+use super::hypotheses::{Hypothesis, dull_days, hypotheses, usual_hypotheses};
 use super::parts::Parts;
 use super::sheet_models::SheetModel;
+use super::sorting::{LN_EVIDENCE_HOPELESS, LN_EVIDENCE_NEAR, Tried, sorted};
 use super::whitened::Photograph;
 use crate::error::{Error, Result};
 use crate::estimate::emission::{Origin, SIZES};
@@ -20,22 +20,11 @@ use crate::estimate::fluorescence::Fluorescence;
 use crate::estimate::fluorescence_search::{self, is_hopeful};
 use crate::estimate::mixture::Mixture;
 use crate::estimate::prior::Prior;
-use crate::estimate::search::{Search, Sorted};
+use crate::estimate::search::Search;
 use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
 use crate::solve::ln_sum;
 use crate::solve::posterior::{Iteration, Model};
-
-/// Log evidence relative to the best above which folds count, and above which ideal folds are weighed again
-/// against real sheets.
-const LN_EVIDENCE_NEAR: f64 = -5.0;
-
-/// Hypotheses whose log evidence is further below the best are hopeless, and their searches are abandoned.
-const LN_EVIDENCE_HOPELESS: f64 = -10.0;
-/// If the best sheet model of a clear day is this far behind on a dull day, the other models have no chance.
-const LN_EVIDENCE_FAR: f64 = -8.0;
-
-type Tried = Sorted<Hypothesis, ()>;
 
 /// Photographs of a sheet with their hypotheses weighed under all spectra as one.
 pub struct Weighed<'a> {
@@ -123,13 +112,12 @@ impl<'a> Weighed<'a> {
         ),
     ) -> Option<Self> {
         let (photographs, start) = relative_to_predictions(Photographs::of(parts), prior)?;
+        let all = hypotheses(&photographs.0);
+        let (mut sorted, mut trace) = sorted(&photographs, prior, (all, start), &dull_days(&photographs.0))?;
         let mut search = Search::new(&photographs, prior);
-        let all = hypotheses(&photographs.0).into_iter().chain(hypotheses_without_bounces());
-        let stated = &photographs.0.first()?.parts.stated;
-        let mut sorted = sorted(&mut search, stated, (all, start), &dull_days(&photographs.0));
         let ln_by_emission = add_emitting(&mut search, &photographs, &mut sorted).unwrap_or(0.0);
         sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-        let trace = search.trace;
+        trace.extend(search.trace);
         let is_of_family = |one: &Hypothesis| {
             let Hypothesis { day, emission, .. } = *one;
             *one == Hypothesis { emission, ..Hypothesis::on_dull_day(day, SheetModel::Family) }
@@ -201,92 +189,6 @@ fn relative_to_predictions<'a>(
     };
     drop(model);
     Some((Photographs(family.0.into_iter().zip(predicted).map(relative).collect()), found.solution.w))
-}
-
-/// Hypotheses in order of evidence under all spectra. The first is started from `start`, each other from the
-/// result of the most similar one before. On each dull day the best sheet model of a clear day comes first:
-/// if it is far behind, so are the others.
-fn sorted(
-    search: &mut Search<Photographs>,
-    stated: &StatedScene,
-    (hypotheses, start): (impl Iterator<Item = Hypothesis>, DVector<f64>),
-    dull_days: &[Day],
-) -> Vec<Tried> {
-    let mut all: Vec<Tried> = Vec::new();
-    for hypothesis in hypotheses {
-        sort(search, stated, (hypothesis, &start), &mut all);
-    }
-    let mut by_weight: Vec<&Tried> = all.iter().filter(|one| one.hypothesis.is_usual_fold()).collect();
-    by_weight.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-    let by_weight: Vec<SheetModel> = by_weight.into_iter().map(|one| one.hypothesis.kind).collect();
-    for day in dull_days {
-        for kind in &by_weight {
-            let behind = sort(search, stated, (Hypothesis::on_dull_day(*day, *kind), &start), &mut all);
-            if behind < LN_EVIDENCE_FAR {
-                break;
-            }
-        }
-    }
-    weigh_against_ideal(search, &mut all);
-    all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-    all
-}
-
-/// Adds a hypothesis to the sorted ones, starting from `first` if it is the first; returns its log evidence
-/// relative to the best.
-fn sort(
-    search: &mut Search<Photographs>,
-    stated: &StatedScene,
-    (hypothesis, first): (Hypothesis, &DVector<f64>),
-    all: &mut Vec<Tried>,
-) -> f64 {
-    // a spectrum found without bounces is no start for a fold
-    let nearest = all.iter().filter(|one| one.hypothesis.has_bounces()).min_by(|a, b| {
-        let [of_a, of_b] = [a, b].map(|one| one.hypothesis.differences(&hypothesis));
-        of_a.cmp(&of_b).then(b.ln_weight().total_cmp(&a.ln_weight()))
-    });
-    let start = Some(nearest.map_or(first, |one| &one.solution.w).clone());
-    let ln_best = all.iter().map(Tried::ln_weight).fold(f64::NEG_INFINITY, f64::max);
-    let ln_share = hypothesis.ln_share(stated);
-    let Some(found) = search.sort((hypothesis, ln_share), start, ln_best + LN_EVIDENCE_HOPELESS) else {
-        return f64::NEG_INFINITY;
-    };
-    let behind = found.ln_weight() - ln_best;
-    all.push(found);
-    behind
-}
-
-/// Weighs real sheets against ideal folds of some evidence, with the size of the model error that has most
-/// evidence: for a picture taken with care the usual size does not distinguish the two. The estimates of real
-/// sheets keep the usual size, as residuals show only what the unknowns do not absorb.
-fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
-    let ln_most = |is_ideal: bool| {
-        let of = all.iter().filter(|one| one.hypothesis.imperfection.is_ideal() == is_ideal);
-        of.map(Tried::ln_weight).fold(f64::NEG_INFINITY, f64::max)
-    };
-    if ln_most(true) < ln_most(false) + LN_EVIDENCE_NEAR {
-        return;
-    }
-    let ln_hopeless = ln_most(true).max(ln_most(false)) + LN_EVIDENCE_HOPELESS;
-    for has_bounces in [true, false] {
-        let is_weighed = |one: &Tried| {
-            !one.hypothesis.imperfection.is_ideal() && one.hypothesis.has_bounces() == has_bounces
-        };
-        let real = all.iter().filter(|one| is_weighed(one));
-        let Some(real) = real.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight())) else { continue };
-        // an error that is a sixteenth as large makes one datum at most sixteen times as probable
-        let data = real.solution.at.residuals.len() as f64;
-        let is_hopeful = |imperfection: &Imperfection| {
-            real.ln_weight() - data * imperfection.discrepancy.size().ln() > ln_hopeless
-        };
-        let less = real.hypothesis.imperfection.with_less_discrepancy().into_iter().filter(is_hopeful);
-        let less = less.filter_map(|imperfection| {
-            let hypothesis = Hypothesis { imperfection, ..real.hypothesis };
-            search.sort((hypothesis, real.ln_share), Some(real.solution.w.clone()), ln_hopeless)
-        });
-        let more = less.map(|one| one.ln_evidence - real.ln_evidence).fold(0.0, f64::max);
-        all.iter_mut().filter(|one| is_weighed(one)).for_each(|one| one.ln_share += more);
-    }
 }
 
 /// Adds to the real fold of most evidence the same fold of a sheet that fluoresces and, where the exposure is
