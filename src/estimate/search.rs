@@ -5,6 +5,8 @@
 //! of every class of spectra ([`linear`](super::linear)). Those of most evidence are searched to their own
 //! modes, and the estimate is the mean of these, weighted by evidence ([`mixture`](super::mixture)).
 
+use std::cmp::Ordering;
+
 use nalgebra::DVector;
 
 use super::family::{Family, SpectrumModel};
@@ -82,6 +84,11 @@ impl<H, S> Sorted<H, S> {
     /// Logarithm of evidence times probability.
     pub fn ln_weight(&self) -> f64 {
         self.ln_share + self.ln_evidence
+    }
+
+    /// Order in which the more probable comes first.
+    pub fn order(&self, other: &Self) -> Ordering {
+        other.ln_weight().total_cmp(&self.ln_weight())
     }
 }
 

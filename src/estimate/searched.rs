@@ -34,7 +34,7 @@ impl<'a> Searched<'a> {
         let all = all.into_iter().enumerate();
         let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
             all.map(|(n, (data, sorted))| (data, sorted.for_hypothesis(n))).unzip();
-        sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        sorted.sort_by(Sorted::order);
         let alternatives = Alternatives::of(alternatives.into_iter().map(|data: FacetData<'a>| move || data));
         let mut search = Search::new(&alternatives, prior);
         let mixture = search.mixture(&sorted)?;

@@ -163,7 +163,7 @@ impl<'a> Unlit<'_, 'a> {
         let Series { search, found, .. } = all;
         trace.extend(search.trace);
         let mut found: Vec<_> = found.into_iter().flatten().collect();
-        found.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        found.sort_by(Sorted::order);
         let most = found.first().map_or(best, |first| first.ln_weight().max(best));
         found.retain(|one| one.ln_weight() >= most + LN_EVIDENCE_HOPELESS);
         found.truncate(DISTINCT_ODDS);

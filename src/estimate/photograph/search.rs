@@ -116,7 +116,7 @@ impl<'a> Weighed<'a> {
         let (mut sorted, mut trace) = sorted(&photographs, prior, (all, start), &dull_days(&photographs.0))?;
         let mut search = Search::new(&photographs, prior);
         let ln_by_emission = add_emitting(&mut search, &photographs, &mut sorted).unwrap_or(0.0);
-        sorted.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        sorted.sort_by(Tried::order);
         trace.extend(search.trace);
         let is_of_family = |one: &Hypothesis| {
             let Hypothesis { day, emission, .. } = *one;

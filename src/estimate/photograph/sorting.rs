@@ -59,7 +59,7 @@ impl Series {
             // a spectrum found without bounces is no start for a fold
             let nearest = before().filter(|one| one.hypothesis.has_bounces()).min_by(|a, b| {
                 let [of_a, of_b] = [a, b].map(|one| one.hypothesis.differences(&hypothesis));
-                of_a.cmp(&of_b).then(b.ln_weight().total_cmp(&a.ln_weight()))
+                of_a.cmp(&of_b).then(a.order(b))
             });
             let start = nearest.map_or(start, |one| &one.solution.w).clone();
             let ln_best = before().map(Tried::ln_weight).fold(f64::NEG_INFINITY, f64::max);
@@ -100,7 +100,7 @@ pub fn sorted(
     add(vec![Series::of([*first])], &mut all);
     add(vec![Series::of(others.iter().copied()), Series::of(ideal)], &mut all);
     let mut by_weight: Vec<&Tried> = all.iter().filter(|one| one.hypothesis.is_usual_fold()).collect();
-    by_weight.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+    by_weight.sort_by(|a, b| a.order(b));
     let by_weight: Vec<SheetModel> = by_weight.into_iter().map(|one| one.hypothesis.kind).collect();
     let mut days = dull_days.iter().map(|day| Series::on(*day, &by_weight));
     // dull days resemble each other more than a clear one
@@ -110,7 +110,7 @@ pub fn sorted(
     let mut search = Search::new(photographs, prior);
     weigh_against_ideal(&mut search, &mut all);
     trace.extend(search.trace);
-    all.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+    all.sort_by(Tried::order);
     Some((all, trace))
 }
 
@@ -131,7 +131,7 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
             !one.hypothesis.imperfection.is_ideal() && one.hypothesis.has_bounces() == has_bounces
         };
         let real = all.iter().filter(|one| is_weighed(one));
-        let Some(real) = real.max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight())) else { continue };
+        let Some(real) = real.min_by(|a, b| a.order(b)) else { continue };
         // an error that is a sixteenth as large makes one datum at most sixteen times as probable
         let data = real.solution.at.residuals.len() as f64;
         let is_hopeful = |imperfection: &Imperfection| {
