@@ -165,12 +165,12 @@ const FALL_NM: f64 = 430.0;
 const FALL_WITHIN_NM: f64 = 30.0;
 /// Wavelength from which on power below [`FALL_NM`] stands for all that excites brighteners, and that power
 /// relative to the power at the peak of emission in daylight of 6500 K. Incandescent lamps have two thirds of
-/// it, and of daylight's ultraviolet; fluorescent lamps a fifth; white LEDs hardly any, unless violet ones
-/// excite their phosphors.
+/// it, and of daylight's ultraviolet; white LEDs hardly any, unless violet ones excite their phosphors;
+/// fluorescent lamps a fifth in the waveband of mercury's line at 436 nm, which only fine wavebands resolve.
 const EXCITING_NM: f64 = 400.0;
 const EXCITING_DAYLIGHT: f64 = 0.92;
 /// Lights of less than this share of it are taken to excite no brightener: a usual one would emit less than
-/// two per cent of white.
+/// two per cent of white at the peak.
 const LEAST_EXCITATION: f64 = 0.3;
 /// Lower limit on the power of a light relative to its mean: between the lines of a lamp f would be
 /// unbounded.
