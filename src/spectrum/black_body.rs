@@ -16,7 +16,7 @@ pub(super) fn temperature_k(name: &str) -> Option<f64> {
     name.strip_suffix(['K', 'k'])?.trim().parse().ok().filter(|kelvin: &f64| kelvin.is_finite())
 }
 
-/// Relative power of a black body of `temperature_k`, 100 at 560 nm, on 300..830 nm by 1.
+/// Relative power of a black body of `temperature_k`, 100 at 560 nm, on 300..830 nm by 5.
 ///
 /// # Errors
 /// [`crate::Error::Spectrum`] outside 1000..25000 K.
@@ -27,7 +27,7 @@ pub(super) fn black_body(temperature_k: f64) -> Result<Spectrum> {
         return Err(bad(&name, problem, "choose a temperature in that range"));
     }
     let power = |nm: f64| nm.powi(-5) / (C2_NM_K / (nm * temperature_k)).exp_m1();
-    let grid = WavelengthGrid::uniform(300.0, 830.0, 1.0)?;
+    let grid = WavelengthGrid::uniform(300.0, 830.0, 5.0)?;
     let values = grid.wavelengths_nm().iter().map(|nm| 100.0 * power(*nm) / power(560.0)).collect();
     Ok(Spectrum::from_table(name, grid.wavelengths_nm().into(), values))
 }

@@ -84,6 +84,18 @@ impl WavelengthGrid {
         (self.wavelengths_nm[0], self.wavelengths_nm[self.len() - 1])
     }
 
+    /// The wavelength before a waveband's, its own, and the one after it, nm; at either end as far away as
+    /// the other neighbour.
+    #[must_use]
+    pub fn around_nm(&self, band: usize) -> [f64; 3] {
+        let (all, at) = (&self.wavelengths_nm, self.wavelengths_nm[band]);
+        let before = band.checked_sub(1).map(|before| all[before]);
+        let after = all.get(band + 1).copied();
+        let mirrored = |other: Option<f64>| other.map(|other| 2.0 * at - other);
+        let either = |own: Option<f64>, other| own.or_else(|| mirrored(other)).unwrap_or(at);
+        [either(before, after), at, either(after, before)]
+    }
+
     /// Weights w with ∫f dλ ≈ Σ wᵢ f(λᵢ) by the trapezoid rule over the grid's range; they sum to that range.
     ///
     /// # Example

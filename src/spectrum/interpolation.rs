@@ -4,13 +4,15 @@
 //! Sprague's polynomial of fifth degree for evenly spaced samples. Uneven or too few samples are interpolated
 //! linearly.
 
-/// Interpolation between samples.
+/// How values for wavelengths are made of samples at others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// Linear.
     Linear,
     /// Polynomials of fifth degree through at least six evenly spaced samples.
     Sprague,
+    /// No interpolation, but the mean of a light's samples that are closer to each other than wavebands.
+    Average,
 }
 
 impl Interpolation {
@@ -23,12 +25,13 @@ impl Interpolation {
         }
     }
 
-    /// `linear` or `sprague`, as in records.
+    /// `linear`, `sprague` or `average`, as in records.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
             Self::Sprague => "sprague",
+            Self::Average => "average",
         }
     }
 }

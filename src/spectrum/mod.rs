@@ -4,6 +4,7 @@
 //! notation of the command line, finds built-in spectra and files. Nothing here knows about geometry or
 //! colour.
 
+mod averaging;
 mod black_body;
 mod cameras;
 mod candidate_lights;
@@ -61,6 +62,8 @@ pub struct Spectrum {
     interpolation: Interpolation,
     /// Upper bound on values between samples, unless the samples exceed it: 1 for reflectances.
     ceiling: f64,
+    /// True for the power of a light, of which wavebands wider than the steps of its samples have the mean.
+    is_power: bool,
     note: Option<Arc<str>>,
 }
 
@@ -116,7 +119,15 @@ impl Spectrum {
     /// A column of a table whose wavelengths have been checked.
     fn from_table(name: String, wavelengths_nm: Arc<[f64]>, values: Vec<f64>) -> Self {
         let interpolation = Interpolation::for_samples(&wavelengths_nm);
-        Self { name, wavelengths_nm, values, interpolation, ceiling: f64::INFINITY, note: None }
+        Self {
+            name,
+            wavelengths_nm,
+            values,
+            interpolation,
+            ceiling: f64::INFINITY,
+            is_power: false,
+            note: None,
+        }
     }
 
     /// The same samples with linear interpolation.
@@ -128,6 +139,13 @@ impl Spectrum {
     #[must_use]
     pub fn as_reflectance(self) -> Self {
         Self { ceiling: 1.0, ..self }
+    }
+
+    /// The same samples as the power of a light, which is averaged over wavebands that are wider than its
+    /// steps.
+    #[must_use]
+    pub fn as_power(self) -> Self {
+        Self { is_power: true, ..self }
     }
 
     fn noted(self, note: Option<&Arc<str>>) -> Self {
@@ -169,7 +187,9 @@ impl Spectrum {
         (self.wavelengths_nm[0], self.wavelengths_nm[self.wavelengths_nm.len() - 1])
     }
 
-    /// The values at the grid's wavelengths: samples where they exist, else interpolated.
+    /// The values at the grid's wavelengths: samples where they exist, else interpolated. Of a light that was
+    /// measured in smaller steps than those of the grid, the mean power near each wavelength: its lines count
+    /// wherever they are.
     ///
     /// Between samples of 0 or more no value is below 0, and between two samples of at most 1 a reflectance
     /// is not above 1, however far the polynomial overshoots.
@@ -203,17 +223,23 @@ impl Spectrum {
         }
         // both increase: stepping along is several times faster than a search for each wavelength
         let (last, mut right) = (self.values.len() - 1, 1);
-        let value_at = |&nm: &f64| {
+        let value_at = |(band, &nm): (usize, &f64)| {
             while right < last && self.wavelengths_nm[right] < nm {
                 right += 1;
             }
-            self.between(right, nm)
+            self.mean(grid, band).unwrap_or_else(|| self.between(right, nm))
         };
-        Ok(grid.wavelengths_nm().iter().map(value_at).collect())
+        Ok(grid.wavelengths_nm().iter().enumerate().map(value_at).collect())
+    }
+
+    /// The mean power near a wavelength of the grid, if this is a light measured in smaller steps.
+    fn mean(&self, grid: &WavelengthGrid, band: usize) -> Option<f64> {
+        let near = || averaging::mean(&self.wavelengths_nm, &self.values, grid.around_nm(band));
+        self.is_power.then(near).flatten()
     }
 
     /// The interpolation that [`Spectrum::on`] uses on the grid; `None` if every wavelength of the grid is
-    /// that of a sample, or lies beyond the samples.
+    /// that of a sample that stands for it, or lies beyond the samples.
     #[must_use]
     pub fn interpolation(&self, grid: &WavelengthGrid) -> Option<Interpolation> {
         let (first_nm, last_nm) = self.range_nm();
@@ -221,6 +247,9 @@ impl Spectrum {
             (first_nm..last_nm).contains(nm)
                 && self.wavelengths_nm.binary_search_by(|at| at.total_cmp(nm)).is_err()
         };
+        if (0..grid.len()).any(|band| self.mean(grid, band).is_some()) {
+            return Some(Interpolation::Average);
+        }
         let is_flat = first_nm <= 0.0;
         (!is_flat && grid.wavelengths_nm().iter().any(between)).then_some(self.interpolation)
     }

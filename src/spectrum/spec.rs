@@ -131,7 +131,7 @@ impl Specs {
             return Err(bad(spec, problem, format!("name one of them, such as {spec}:COLUMN")));
         }
         check_power(&illuminant, 0.0)?;
-        Ok(illuminant)
+        Ok(illuminant.as_power())
     }
 
     /// All illuminants named by `spec`: every column of a file.
@@ -141,7 +141,7 @@ impl Specs {
     pub fn illuminants(self, spec: &str) -> Result<Vec<Spectrum>> {
         let lights = self.find(What::Illuminants, spec)?;
         lights.iter().try_for_each(|light| check_power(light, 0.0))?;
-        Ok(lights)
+        Ok(lights.into_iter().map(Spectrum::as_power).collect())
     }
 
     /// The camera named by `spec`.

@@ -18,7 +18,8 @@ pub struct SpectrumRecord {
     /// Relative power, one per waveband.
     #[schemars(inner(range(min = 0)))]
     pub power: Vec<f64>,
-    /// How values between those of its source were interpolated, if they were: `sprague` or `linear`.
+    /// How values were computed from those of its source, if they are not the same: `sprague` or `linear`
+    /// interpolation, or the `average` of a light over wavebands.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
 }
@@ -33,7 +34,8 @@ pub struct CameraRecord {
     /// Sensitivity to power, `[channel][waveband]`, in any unit.
     #[schemars(length(min = 1), inner(inner(range(min = 0))))]
     pub sensitivities: Vec<Vec<f64>>,
-    /// How values between those of their source were interpolated, if they were: `sprague` or `linear`.
+    /// How values were computed from those of their source, if they are not the same: `sprague` or `linear`
+    /// interpolation, or the `average` of a light over wavebands.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
     /// The camera for which it stands in, if another camera took the photograph.

@@ -26,7 +26,8 @@ pub struct ReflectanceRecord {
     /// Reflectance, one per wavelength.
     #[schemars(inner(range(min = 0, max = 1)))]
     pub reflectance: Vec<f64>,
-    /// How values between those of its source were interpolated, if they were: `sprague` or `linear`.
+    /// How values were computed from those of its source, if they are not the same: `sprague` or `linear`
+    /// interpolation, or the `average` of a light over wavebands.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<String>,
     /// Total radiance factor of a sheet that fluoresces, in the light of the scene and without bounces: what

@@ -116,9 +116,17 @@ import colour, json, numpy
 records = list(map(json.loads, open("read.ndjson")))
 lamp = colour.SpectralDistribution_IESTM2714("resources/Fluorescent.spdx").read()
 light = records[0]["illuminants"][0]
-assert light["interpolation"] == "linear", light
-power = numpy.interp(records[0]["wavelengths_nm"], lamp.wavelengths, lamp.values)
-assert numpy.allclose(light["power"], power, rtol=1e-12)
+assert light["interpolation"] == "average", light
+fine_nm = numpy.arange(395, 705.001, 0.01)
+fine = numpy.interp(fine_nm, lamp.wavelengths, lamp.values)
+for nm, power in zip(records[0]["wavelengths_nm"], light["power"]):
+    weights = numpy.maximum(0, 1 - abs(fine_nm - nm) / 5)
+    mean = numpy.average(fine, weights=weights)
+    # samples that are farther apart than wavebands are joined by lines
+    apart = numpy.interp(nm, lamp.wavelengths, lamp.values)
+    assert min(abs(power - mean), abs(power - apart)) < 1e-4 * mean, (nm, power, mean, apart)
+total = numpy.trapezoid(fine[500:-500], dx=0.01)
+assert abs(numpy.trapezoid(light["power"], dx=5) / total - 1) < 0.01
 samples = colour.read_sds_from_xrite_file("resources/X-Rite_Digital_Colour_Checker.txt")
 assert len(records) == 11 == len(samples) + 1
 for record, sample in zip(records[1:], samples.values()):
