@@ -397,7 +397,8 @@ impl<H: Copy> Candidate<H> {
         let model = family.model(hypothesis, &gaussian)?;
         let cost = |w: &DVector<f64>| (model.residuals(w) / tempering).norm_squared() + w.norm_squared();
         let (maximum, here) = (self.maximum(&gaussian)?.w, self.in_coordinates_of(&gaussian)?);
-        let w = if cost(&here) < cost(&maximum) { here } else { maximum };
+        // the linear model may lead to where the true one is not finite
+        let w = if cost(&maximum) <= cost(&here) { maximum } else { here };
         let Self { class, ln_evidence, ln_share, .. } = *self;
         drop(model);
         Some(Start { hypothesis, class, tempering, ln_evidence, ln_share, gaussian, w })

@@ -51,10 +51,18 @@ pub fn estimate_in_stated_light(
         return Ok((found.estimate(data, &found.mixture, trace), rival));
     };
     // The mode lies on the bound; its error bars are those of the unconstrained mode, to both sides.
-    let known = data.with_known(unknown, bound);
-    let on_bound = Sortings::of(&known, prior, start).and_then(|sorted| sorted.most_probable(&known, prior));
-    let (on_bound, more) = on_bound.ok_or_else(not_finite)?;
-    Ok((on_bound.estimate(data, &found.mixture, [trace, more].concat()), rival))
+    let mut known = data.with_known(unknown, bound);
+    let mut all = trace;
+    let on_bound = loop {
+        let sorted = Sortings::of(&known, prior, start).ok_or_else(not_finite)?;
+        let (on_bound, more) = sorted.most_probable(&known, prior).ok_or_else(not_finite)?;
+        all.extend(more);
+        match impossible(&known, &on_bound.mixture) {
+            Some((unknown, bound)) => known = known.with_known(unknown, bound),
+            None => break on_bound,
+        }
+    };
+    Ok((on_bound.estimate(data, &found.mixture, all), rival))
 }
 
 /// The facets under all spectra as one Gaussian: for a sheet without emission, then with each possible

@@ -66,8 +66,9 @@ pub struct Inference<'a> {
 pub struct Photographed {
     /// How the picture was made.
     pub making: Making,
-    /// True if its values were calibrated by a chart or a card.
-    pub by_chart: bool,
+    /// Root mean square of the residuals of the chart or card by which its values were calibrated, relative
+    /// to what they should be; `None` without one.
+    pub chart_residual: Option<f64>,
     /// Shadows on its panels; facets in them are not measured.
     pub shadows: Vec<Shadow>,
     /// The ingredients of its facets, or why real sheets are not modelled there; `None` if it is assumed to
@@ -139,7 +140,8 @@ impl<'a> Inference<'a> {
         let mut doubts: Vec<Doubt> = self.doubt_of_known().into_iter().collect();
         doubts.extend(self.doubts_of_taking(photograph));
         let parts = match &photograph.parts {
-            Some(Ok(parts)) if !self.lights.is_empty() => {
+            Some(Ok(parts)) if self.lights.is_empty() => parts,
+            Some(Ok(parts)) if self.is_auto => {
                 let estimate = light::estimate_photograph(
                     parts,
                     self.lights,
@@ -148,13 +150,12 @@ impl<'a> Inference<'a> {
                 )?;
                 return Ok(self.judged(facets, estimate, doubts));
             }
-            Some(Ok(parts)) => parts,
             Some(Err(why)) if self.is_auto => {
                 let estimate = ideal()?;
                 let unmodelled = (estimate.residual_rms >= EXPLAINED).then_some(*why);
                 return Ok(Measurement { unmodelled, ..self.judged(facets, estimate, doubts) });
             }
-            Some(Err(_)) | None => return Ok(self.judged(facets, ideal()?, doubts)),
+            Some(_) | None => return Ok(self.judged(facets, ideal()?, doubts)),
         };
         let shown = self.shown.and_then(|shown| shown.daylight);
         let lit = shown.map(|shown| Parts {
@@ -211,7 +212,8 @@ impl<'a> Inference<'a> {
     /// shadows.
     fn doubts_of_taking(&self, photograph: &Photographed) -> Vec<Doubt> {
         let of_shadows = photograph.shadows.iter().map(Shadow::doubt);
-        let of_taking = self.panel.map(|_| doubts_of_taking(self.stated, &photograph.making));
+        let of_taking =
+            self.panel.map(|_| doubts_of_taking(self.stated, &photograph.making, photograph.chart_residual));
         of_shadows.chain(of_taking.into_iter().flatten()).collect()
     }
 
@@ -265,7 +267,7 @@ impl<'a> Inference<'a> {
             let is_sunlit = estimate.day.is_none_or(|found| found.day == Day::Clear);
             doubts.extend(shading.into_iter().flat_map(|shading| shading.doubts(is_sunlit)));
         }
-        if !photograph.by_chart {
+        if photograph.chart_residual.is_none() {
             doubts.extend(unusual_exposure(estimate, facets.exposure.known()));
         }
         doubts

@@ -94,6 +94,7 @@ impl<H: Copy, S> Mixture<H, S> {
     /// distances from it. An unsearched class counts at most as much as the best mode, and is assumed to be
     /// as uncertain as the modes are on average. `None` without any mode.
     pub fn of(mut modes: Vec<LocalMode<H, S>>, unsearched: &[Unsearched<H>]) -> Option<Self> {
+        modes.retain(|one| one.ln_evidence.is_finite());
         modes.sort_by(|a, b| b.ln_evidence.total_cmp(&a.ln_evidence));
         let most = modes.first()?;
         let all = modes.iter().map(|one| (one.ln_evidence, &one.values));

@@ -42,23 +42,17 @@ const PLACES: usize = 5;
 const SEARCHED: usize = 4;
 const LN_EVIDENCE_NEAR: f64 = -10.0;
 
-/// The classes of most evidence at the modes reached from the means closest to the data, with the noise
-/// scaled by `tempering`; those from all means if there are too few channels to separate the classes.
+/// The classes at the modes reached from all means, with the noise scaled by `tempering`, in order of
+/// evidence: for too few channels to separate the classes.
 pub fn from_means<F: Family>(
     family: &F,
     hypothesis: F::Hypothesis,
     prior: &Prior,
     tempering: f64,
 ) -> Vec<Start<F::Hypothesis>> {
-    let tell_apart = family.tells_classes();
-    let means = if tell_apart { MEANS } else { usize::MAX };
-    let noise = (f64::INFINITY, tempering);
+    let (means, noise) = (usize::MAX, (f64::INFINITY, tempering));
     let search = FromMeans { hypothesis, means, noise, limit: ITERATION_LIMIT, coordinates: usize::MAX };
-    let mut found = search.starts(family, prior);
-    if tell_apart {
-        found.truncate(of_most_evidence(&found, |start| start.ln_evidence, true).len());
-    }
-    found
+    search.starts(family, prior)
 }
 
 /// The classes of most evidence at the modes reached from the means: by quick searches at `coarse` times the

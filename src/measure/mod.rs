@@ -203,7 +203,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     let other_fold = seen.other_than(&corners, &stated_fold(&fold.fold, None));
     let taken = Photographed {
         making: Making::of(photograph.info(), processing, open_sides(photograph, &panels), other_fold),
-        by_chart: false,
+        chart_residual: None,
         shadows,
         parts: Some(PhotographedFold::of(&fold).parts(&picture)?),
     };

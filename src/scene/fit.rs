@@ -19,21 +19,12 @@ impl Setting<'_> {
     /// # Errors
     /// As [`Setting::model`]; [`crate::Error::Field`] if they cannot be fitted in the scene.
     pub fn model_to_fit(&self, fit: &[&'static Unknown]) -> Result<SceneModel> {
-        self.model_to_fit_within(fit, 0.0)
-    }
-
-    /// The same, with folds of other angles solved to this relative error of facet means if it exceeds the
-    /// scene's: enough to see whether another angle would explain the facets, in a fraction of the time.
-    ///
-    /// # Errors
-    /// As [`Setting::model_to_fit`].
-    pub fn model_to_fit_within(&self, fit: &[&'static Unknown], tolerance: f64) -> Result<SceneModel> {
         // The model is proportional to the exposure, whatever the surface.
         let model = if fit.iter().all(|unknown| **unknown == EXPOSURE) {
             SceneModel::known(self.model()?)
         } else {
             match self {
-                Self::Fold(fold) => SceneModel::of_fold(&fold.in_light(tolerance)?, fit)?,
+                Self::Fold(fold) => SceneModel::of_fold(&fold.in_light()?, fit)?,
                 Self::Surface(surface) if surface.scene.fold_if_one()?.is_some() => {
                     let problem = "in light other than a sun and a uniform sky only the exposure \
                                    can be fitted; leave --fit out";
@@ -55,9 +46,8 @@ impl Setting<'_> {
 }
 
 impl FoldSetting {
-    /// The fold in its light; other folds are solved to `tolerance` or the scene's tolerance, whichever is
-    /// larger.
-    fn in_light(&self, tolerance: f64) -> Result<FoldInLight> {
+    /// The fold in its light.
+    fn in_light(&self) -> Result<FoldInLight> {
         let Optics { grid, camera, illuminants, .. } = self.optics()?;
         let sun = DVector::from_column_slice(&illuminants[0].power);
         // pictures in several lights have several suns
@@ -70,7 +60,7 @@ impl FoldSetting {
             stated,
             fold: self.fold,
             response: self.response.clone(),
-            tolerance: self.tolerance.map(|own| own.max(tolerance)),
+            tolerance: self.tolerance,
             lighting: self.lighting()?,
             card: self.card.clone(),
             grid: grid.clone(),

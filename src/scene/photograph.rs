@@ -63,7 +63,7 @@ impl<'a> Picture<'a> {
     /// # Errors
     /// [`crate::Error::Field`] if the photograph's record is invalid.
     pub fn of(sample: &Sample, measured: &'a Measured<'a>, exposure: Option<f64>) -> Result<Self> {
-        let by_chart = sample.fields.has("calibration");
+        let by_chart = sample.chart_residual()?.is_some();
         let white_per_klx = sample.white_per_klx()?;
         let by_paper = sample.white_paper()?.map(|paper| [paper.exposure, paper.exposure_sd]);
         Ok(Self { measured, framing: sample.framing()?, exposure, by_chart, white_per_klx, by_paper })

@@ -56,9 +56,9 @@ pub fn photographed(
     (measured, shadows): (&Measured, Vec<Shadow>),
     exposure: Exposure,
 ) -> Result<Photographed> {
-    let by_chart = sample.fields.has("calibration");
+    let chart_residual = sample.chart_residual()?;
     let Some(fold) = fold else {
-        return Ok(Photographed { making: Making::default(), by_chart, shadows, parts: None });
+        return Ok(Photographed { making: Making::default(), chart_residual, shadows, parts: None });
     };
     let making = sample.making()?;
     // estimates normalised by sums assume ideal folds
@@ -67,7 +67,7 @@ pub fn photographed(
     } else {
         Some(PhotographedFold::of(fold).parts(&Picture::of(sample, measured, exposure.known())?)?)
     };
-    Ok(Photographed { making, by_chart, shadows, parts })
+    Ok(Photographed { making, chart_residual, shadows, parts })
 }
 
 impl FoldSetting {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::fields::finite;
 use super::{Corners, Sample};
@@ -98,7 +98,7 @@ impl CalibrationRecord {
     /// Root mean square of the patches' residuals in the channel where it is largest.
     #[must_use]
     pub fn residual(&self) -> f64 {
-        self.residual_rms.iter().copied().fold(0.0, f64::max)
+        largest(&self.residual_rms)
     }
 }
 
@@ -131,4 +131,25 @@ impl Sample {
         self.fields.set("calibration", record)?;
         self.fields.set("exposure", record.exposure)
     }
+
+    /// Root mean square of the residuals of a chart's patches, relative to what they should be, in the
+    /// channel where it is largest; 0 if the record does not say, `None` without a chart or a card.
+    ///
+    /// # Errors
+    /// [`crate::Error::Field`] if residuals are not numbers.
+    pub fn chart_residual(&self) -> Result<Option<f64>> {
+        let chart: Option<Residuals> = self.fields.get("calibration")?;
+        Ok(chart.map(|chart| largest(&chart.residual_rms)))
+    }
+}
+
+/// What is read of a [`CalibrationRecord`].
+#[derive(Deserialize)]
+struct Residuals {
+    #[serde(default)]
+    residual_rms: Vec<f64>,
+}
+
+fn largest(residuals: &[f64]) -> f64 {
+    residuals.iter().copied().fold(0.0, f64::max)
 }

@@ -26,6 +26,7 @@ fn photographs() {
         done
         rm photo.tif photo.png photo.jpg
         oiiotool photo.exr --ch R -d uint16 -o grey.tif
+        oiiotool photo.exr --ch R,R,R -d uint16 -o thrice.tif
         oiiotool photo.exr -d uint16 --attrib tiff:bigtiff 1 -o big.tif
         oiiotool photo.exr -d uint8 -o photo.jpg
         mv photo.jpg photo.nef
@@ -96,6 +97,7 @@ END
                 1,
                 &["grey.tif", "a grey picture", "camera has 3 channels", "--camera"],
             ),
+            case("sh whole thrice.tif", 1, &["thrice.tif", "a grey picture saved as RGB", "--camera"]),
             case(
                 "vextract photo.exr --scene scene.json --camera one.csv \
                     --panel0 '332,462 345,77 122,12 104,442'",

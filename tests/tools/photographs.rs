@@ -136,6 +136,30 @@ fn a_chart_in_the_picture_makes_the_exposure_known() {
     }
 }
 
+/// A light that the chart contradicts is a doubt, whatever the facets allow; a daylight near the true one is
+/// not.
+#[test]
+fn a_chart_that_looks_otherwise_is_a_doubt() {
+    if !is_there(ALL) {
+        return;
+    }
+    let photo = Path::new(ALL).join("e_chart_purple_45.tif");
+    let run = Workdir::new().sh(&format!(
+        "vextract -q --find '{0}' > found.json
+        vkernel --angle-deg 45 -o scene.json
+        for light in D50 D65 A FL2; do
+            vextract -q '{0}' --scene scene.json --regions found.json --camera canon-5d-mark-ii \
+                --illuminant $light | vestimate -q | grep -o '\"because\":\"[^\"]*'
+        done",
+        photo.display()
+    ));
+    let because: Vec<_> = run.stdout.lines().collect();
+    assert_eq!(because.len(), 4, "{} {}", run.stdout, run.stderr);
+    for (n, because) in because.into_iter().enumerate() {
+        assert_eq!(because.contains("the patches of the chart are"), n >= 2, "{because}");
+    }
+}
+
 /// Exposure over the true one, and scores, with the chart's corners shifted and with `flags` of vextract.
 fn by_chart(sidecar: &Value, photo: &Path, shift_px: f64, flags: &str) -> (f64, [f64; 2]) {
     let corner = |(patch, corner): (usize, usize)| {

@@ -193,10 +193,15 @@ impl Setup<'_> {
         // none if no camera is stated and the first photograph, which would name it, is unreadable
         let Ok(camera) = self.scene.camera() else { return Ok(()) };
         let (seen, of_camera) = (photograph.channels(), camera.channels.len());
-        if seen == of_camera {
+        let is_grey = photograph.info().is_grey;
+        if seen == of_camera && !(is_grey && seen > 1) {
             return Ok(());
         }
-        let kind = if seen == 1 { "a grey picture" } else { "an RGB picture" };
+        let kind = match (seen, is_grey) {
+            (1, _) => "a grey picture",
+            (_, true) => "a grey picture saved as RGB",
+            (_, false) => "an RGB picture",
+        };
         let problem = format!("{kind}, but the scene's camera has {}", counted(of_camera, "channel"));
         Err(Error::picture(path, problem, "give the camera that took it (--camera), or the original picture"))
     }

@@ -29,6 +29,8 @@ pub struct PhotographInfo {
     /// The darkest stored numbers, one per channel, if they are equal in all and above the black level, as if
     /// black had not been subtracted. Empty otherwise.
     pub darkest: Vec<f64>,
+    /// True if the channels of an RGB picture have the same numbers: a grey one saved as RGB.
+    pub is_grey: bool,
     /// White balance and matrix that were undone, if any.
     pub undone: Option<Development>,
     /// What was read of a RAW file's sensor.
@@ -77,6 +79,7 @@ impl PhotographInfo {
             black_level: vec![0.0],
             white_level: vec![1.0],
             ends_at: Vec::new(),
+            is_grey: false,
             darkest: Vec::new(),
             undone: None,
             sensor: None,

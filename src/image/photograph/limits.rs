@@ -11,6 +11,7 @@ impl Photograph {
     /// The same, clipped where a channel's numbers end early, and with its darkest numbers recorded.
     pub(in crate::image) fn with_limits_detected(mut self) -> Self {
         let sampled = Sampled::of(&self.pixels, self.channels(), (self.width(), self.height()));
+        self.info.is_grey = are_alike(&sampled);
         let ends = ends(&sampled);
         if ends.iter().any(Option::is_some) {
             self.pixels.rescale(|channel, scale| match ends.get(channel).or(ends.last()) {
@@ -90,4 +91,11 @@ impl Photograph {
 /// The level of a channel, from one for all or one for each.
 fn level(levels: &[f64], channel: usize) -> f64 {
     levels.get(channel).or(levels.last()).copied().unwrap_or_default()
+}
+
+/// True if several channels have the same numbers, of which there are several.
+fn are_alike(channels: &[Sampled]) -> bool {
+    let [first, others @ ..] = channels else { return false };
+    let varies = first.sorted.first() != first.sorted.last();
+    varies && !others.is_empty() && others.iter().all(|other| other.runs == first.runs)
 }

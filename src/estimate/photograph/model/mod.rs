@@ -58,8 +58,6 @@ pub struct Ingredients<'a> {
 pub struct Point {
     /// Albedo of the sheet per waveband: reflectance for light from all directions into all directions.
     pub albedo: Vec<f64>,
-    /// Conditions.
-    pub conditions: Conditions,
     /// The sheet's departure from a Lambertian one.
     pub departure: Departure,
     /// Exposure: value of a perfect white diffuser facing the sun, in the sun alone.
@@ -198,7 +196,6 @@ impl<'a> PhotographModel<'a> {
             albedo: self.logit(w).iter().map(|z| logistic(*z)).collect(),
             departure: self.departure(&conditions, &variations),
             exposure: Lighting::new(self.parts, &conditions).exposure(self.parts, &conditions),
-            conditions,
         }
     }
 
