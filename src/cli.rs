@@ -262,11 +262,7 @@ pub fn vector(text: &str) -> std::result::Result<[f64; 3], String> {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Camera and light")]
 pub struct OpticsArgs {
-    /// Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at
-    /// an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), or a file; for a
-    /// photograph also unknown: vestimate finds it. Repeated: a picture under each, or, for a shape under
-    /// several lights, one picture with an illuminant per light in their order, skies not counted [default:
-    /// D65; for a photograph that states where and when it was taken, the sun's]
+    /// Illuminant; each tool has a help text of its own for what it takes
     #[arg(long, value_name = "SPEC", value_parser = light)]
     pub illuminant: Vec<String>,
     /// Illuminant of the sky; sky: that of a cloudless day with the sun of --illuminant

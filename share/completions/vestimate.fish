@@ -1,7 +1,7 @@
 complete -c vestimate -l prior -d 'Prior on the reflectance: sheets (paint, cloth, plants, skin, paper, prints), spectra (set or file), smooth (the paper\'s estimator) or none [default: sheets]' -r
 complete -c vestimate -l smoothness -d 'Weight of the squared second differences of the spectrum, for --prior smooth and --method park or khan; auto: as the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]' -r
 complete -c vestimate -l noise-sd -d 'Standard deviation of the noise of every facet, on the scale of its value; auto: from the samples, else from what no reflectance explains' -r
-complete -c vestimate -l model-error -d 'Error of the model, relative to a facet\'s value, 0 to 1 [default: 3e-4 for photographs, 0 for computed facets]' -r
+complete -c vestimate -l model-error -d 'Independent error of each value, relative to it, 0 to 1, in addition to the model error of real sheets [default: 3e-4 for photographs, 0 for computed facets]' -r
 complete -c vestimate -l exposure -d 'Pixel value of a perfect white diffuser facing the sun; free: fit it; sum: normalise by sums, as in the paper [default: the sample\'s, else free]' -r
 complete -c vestimate -l fit -d 'Scene parameters to fit, comma-separated, each expected near what the scene states [default: auto for photographs, else none]' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
 angle\t'Angle between the panels'

@@ -94,7 +94,7 @@ sony-ilce-7rm4\t''
 sony-ilce-7sm2\t''
 sony-ilce-7sm3\t''
 sony-ilce-9\t''"
-complete -c vextract -l illuminant -d 'Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), or a file; for a photograph also unknown: vestimate finds it. Repeated: a picture under each, or, for a shape under several lights, one picture with an illuminant per light in their order, skies not counted [default: D65; for a photograph that states where and when it was taken, the sun\'s]' -r -F -a "A\t''
+complete -c vextract -l illuminant -d 'Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), a file, or unknown: vestimate finds it [default: by the photograph: the sun\'s at its place and time; unknown for a flash, lamps or night; else D65]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''

@@ -14,7 +14,7 @@ complete -c vforward -l body-roughness-deg -d 'Roughness of the body of the shee
 complete -c vforward -l sheen -d 'Sheen, 0 to 2: brightening of the body at grazing incidence or viewing, as of felt' -r
 complete -c vforward -l render -d 'Also take a photograph of the first sheet: camera RGB as .exr or 16-bit .tif, or for the eye as .png (sRGB)' -r -F
 complete -c vforward -l render-size -d 'Size of the photograph, px' -r
-complete -c vforward -l eye -d 'Position of the camera, in the unit of the panels, for --render and for sheets that are not perfectly matt [default: a few degrees off the sun\'s direction]' -r
+complete -c vforward -l eye -d 'Position of the camera, in the unit of the panels, for --render and for sheets that are not perfectly matte [default: a few degrees off the sun\'s direction]' -r
 complete -c vforward -l look-at -d 'Point that the camera looks at [default: the middle of the sheet]' -r
 complete -c vforward -l up -d 'Direction that points upwards in the photograph [default: the crease]' -r
 complete -c vforward -l field-of-view-deg -d 'Horizontal field of view, degrees, between 0 and 180 [default: fits the sheet]' -r
@@ -94,7 +94,7 @@ sony-ilce-7rm4\t''
 sony-ilce-7sm2\t''
 sony-ilce-7sm3\t''
 sony-ilce-9\t''"
-complete -c vforward -l illuminant -d 'Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), or a file; for a photograph also unknown: vestimate finds it. Repeated: a picture under each, or, for a shape under several lights, one picture with an illuminant per light in their order, skies not counted [default: D65; for a photograph that states where and when it was taken, the sun\'s]' -r -F -a "A\t''
+complete -c vforward -l illuminant -d 'Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), or a file. Repeated: a picture under each, or, for a shape under several lights, one picture with an illuminant per light in their order, skies not counted [default: D65]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''

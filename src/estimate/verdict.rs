@@ -185,7 +185,7 @@ fn far_off(estimate: &Estimate) -> Option<Doubt> {
     let level = if rms > WRONG_CHI { Level::Wrong } else { Level::Doubtful };
     (rms >= EXPLAINED).then(|| Doubt {
         level,
-        because: format!("the facets differ from the model by {rms:.1} times the noise"),
+        because: format!("the facets differ from the model by {rms:.1} times the expected error"),
         remedy: CHECK.to_owned(),
     })
 }
@@ -201,7 +201,10 @@ fn too_open(estimate: &Estimate) -> Option<f64> {
 fn open(estimate: &Estimate) -> Option<Doubt> {
     too_open(estimate).map(|mean| {
         Doubt::new(
-            format!("the facets fix the reflectance only to ± {:.2} on average", 2.0 * mean),
+            format!(
+                "the facets fix the reflectance only to ± {:.2} on average (two standard deviations)",
+                2.0 * mean
+            ),
             "put a chart or card in the picture, use more light, or fold nearer to 45°",
         )
     })

@@ -19,7 +19,7 @@ impl Unmodelled {
 
     /// The error for a scene that requests another sheet all the same.
     pub(super) fn refused(self) -> Error {
-        Error::field(self.field(), format!("{self}; only perfectly matt sheets are computed there"))
+        Error::field(self.field(), format!("{self}; only perfectly matte sheets are computed there"))
     }
 }
 

@@ -74,7 +74,7 @@ const REFLECTANCE_SETS: [ReflectanceSet; 4] = [
     },
     ReflectanceSet {
         name: "munsell",
-        description: "1269 matt Munsell chips by hue, value/chroma (munsell:5R6/12, ...)",
+        description: "1269 matte Munsell chips by hue, value/chroma (munsell:5R6/12, ...)",
         members: munsell::chips,
     },
 ];

@@ -336,8 +336,8 @@ impl EstimateRecord {
     pub fn doubts(&self) -> Vec<String> {
         let warning = Some(self.residual_rms).filter(|rms| *rms > WRONG_CHI).map(|rms| {
             format!(
-                "the facets differ from the model by {rms:.0} times the noise; check angle, corners, \
-                 light, camera and exposure"
+                "the facets differ from the model by {rms:.0} times the expected error; \
+                 check angle, corners, light, camera and exposure"
             )
         });
         // For a real sheet many unknowns are fitted by default, which remain at their priors unless the

@@ -28,9 +28,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 use super::named::Named;
 use super::{Fields, Sample};
@@ -87,6 +88,7 @@ pub struct Regions {
 /// Where panels are in a picture: `panel0`, `panel1` and so on have four corners each, [x, y] in pixels of
 /// the upright picture, in the order of `vextract --panel0`.
 #[derive(Serialize, JsonSchema)]
+#[schemars(transform = describe_panels)]
 pub(super) struct RegionsRecord {
     /// Name of the picture's file.
     image: String,
@@ -96,6 +98,14 @@ pub(super) struct RegionsRecord {
     height: usize,
     #[serde(flatten)]
     panels: Named<[[f64; 2]; 4]>,
+}
+
+/// Describes the panels, which have no doc comment of their own in the schema.
+fn describe_panels(schema: &mut Schema) {
+    if let Some(panel) = schema.pointer_mut("/additionalProperties").and_then(Value::as_object_mut) {
+        let text = "Corners of panel NAME (panel0, panel1 and so on), [x, y] each, in pixels.";
+        panel.insert("description".to_owned(), text.into());
+    }
 }
 
 impl Regions {

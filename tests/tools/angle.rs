@@ -93,7 +93,7 @@ fn a_scene_of_another_fold_is_doubtful() {
     for corners in ["", marked] {
         assert_eq!(verdict("--angle-deg 51", corners)[0], "good");
         for (fold, is) in [
-            ("--angle-deg 42", "those of a fold open by 50 ±"),
+            ("--angle-deg 42", "those of a fold with an angle of 50 ±"),
             ("--angle-deg 50 --panel 1x2", "those of panels 1.00 times as deep as wide"),
         ] {
             let [level, because] = verdict(fold, corners);

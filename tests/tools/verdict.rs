@@ -96,7 +96,7 @@ fn a_wrong_angle_is_found_out() {
             // between folds that are 4° apart one is known to a twentieth of a degree
             ["49.9", "50.0", "50.1"]
                 .iter()
-                .any(|found| text.contains(&format!("the fold is open by {found}")))
+                .any(|found| text.contains(&format!("the fold's angle is {found}")))
         });
         assert_eq!(is_said, off > 0.4, "{angle_deg}: {one:?}");
     }
@@ -112,7 +112,7 @@ fn a_wrong_angle_that_is_to_be_believed_is_doubtful() {
         );
         assert_eq!(one.level, "doubtful", "{one:?}");
         let found = "the estimate does not allow for that";
-        assert!(one.because.contains("the fold is open by") && one.because.contains(found), "{one:?}");
+        assert!(one.because.contains("the fold's angle is") && one.because.contains(found), "{one:?}");
     }
     for flags in ["--fit none", "--fit angle"] {
         let one = judged(&format!("50°, {flags}"), StatedScene { flags, ..AS_IT_IS });

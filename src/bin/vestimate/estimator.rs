@@ -375,7 +375,7 @@ impl<'a> Estimator<'a> {
         if !self.asked.args.common.quiet {
             let (id, reduced_chi) = (sample.id(), ideal.residual_rms);
             let text = format!(
-                "{id}: residual {reduced_chi:.1} times the noise: this is not an ideal fold. \
+                "{id}: residual {reduced_chi:.1} times the expected error: this is not an ideal fold. \
                  Real-sheet effects cannot be modelled here ({why}); errors may exceed the bars"
             );
             cli::say("vestimate", &text);

@@ -61,8 +61,8 @@ struct Args {
     #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true,
         value_parser = settings::noise_sd)]
     noise_sd: NoiseSd,
-    /// Error of the model, relative to a facet's value, 0 to 1 [default: 3e-4 for photographs, 0 for computed
-    /// facets]
+    /// Independent error of each value, relative to it, 0 to 1, in addition to the model error of real sheets
+    /// [default: 3e-4 for photographs, 0 for computed facets]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     model_error: Option<f64>,
     /// Pixel value of a perfect white diffuser facing the sun; free: fit it; sum: normalise by sums, as

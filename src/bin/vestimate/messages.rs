@@ -64,7 +64,7 @@ pub fn outcome(estimate: &Estimate, exposure: Exposure) -> String {
     let sd = estimate.reflectance_sd();
     let iterations = format!("{}, {ended}", counted(estimate.iterations, "iteration"));
     let reduced_chi = match &sd {
-        Some(_) => format!("residual {:.2} times the noise", estimate.residual_rms),
+        Some(_) => format!("residual {:.2} times the expected error", estimate.residual_rms),
         // for a method that weights all facets equally
         None => format!("residuals {:.1e} of white", estimate.residual_rms),
     };

@@ -127,7 +127,11 @@ pub fn not_found(path: &Path, photograph: &Photograph, reason: &impl Display) ->
 
 /// A fold that may be something else, or with a side that may be along another edge.
 pub fn unsure(path: &Path, photograph: &Photograph, confidence: f64) -> Error {
-    let remedy = format!("look at it with --find --overlay FILE.png, then {}", remedy(photograph));
+    let remedy = format!(
+        "look at it with --find --overlay FILE.png: if it is right, delete \"confidence\" from the output of \
+         --find and give that as --regions, otherwise {}",
+        remedy(photograph)
+    );
     Error::picture(path, DetectedFold::unsure(confidence), remedy)
 }
 

@@ -74,12 +74,19 @@ if \"width\" and \"height\" state its size in pixels.
 If one of several photographs cannot be measured, its record has an 'error', and the exit status
 is 3.";
 
+const ILLUMINANT: &str = "\
+Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an \
+angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), a file, or unknown: \
+vestimate finds it [default: by the photograph: the sun's at its place and time; unknown for a flash, \
+lamps or night; else D65]";
+
 /// Measure the facets of a folded sheet in photographs
 #[derive(Parser)]
 #[command(
     name = "vextract",
     version,
-    after_help = AFTER_HELP
+    after_help = AFTER_HELP,
+    mut_arg("illuminant", |arg| arg.help(ILLUMINANT))
 )]
 struct Args {
     /// Photographs: PNG, TIFF, OpenEXR or JPEG; RAW if built with the feature raw

@@ -24,6 +24,12 @@ use vfold::scene::Setting;
 use vfold::stream::{Output, Reader, Record, Scene};
 use vfold::{Error, Result};
 
+const ILLUMINANT: &str = "\
+Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an \
+angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), or a file. \
+Repeated: a picture under each, or, for a shape under several lights, one picture with an illuminant per \
+light in their order, skies not counted [default: D65]";
+
 /// Compute the facet RGB of folded sheets of known reflectance
 #[derive(Parser)]
 #[command(
@@ -35,7 +41,8 @@ use vfold::{Error, Result};
                       vforward [SCENE] --facet-reflectance <FILE.npy>... [OPTIONS]",
     after_help = "Examples:\n  vkernel | vforward --reflectance cc24 --camera sigma-sd-merrill \
                   | vestimate | vscore --table\n  \
-                  vkernel --angle-deg 50 | vforward --reflectance cc24:red --render photo.exr > sample.json"
+                  vkernel --angle-deg 50 | vforward --reflectance cc24:red --render photo.exr > sample.json",
+    mut_arg("illuminant", |arg| arg.help(ILLUMINANT))
 )]
 struct Args {
     /// Scene from vkernel [default: standard input]

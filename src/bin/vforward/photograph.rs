@@ -52,7 +52,7 @@ impl Setup<'_> {
         let light = match self.args.sheet.shape()? {
             None => self.light(&model, sheet)?,
             Some(_) if for_screen => {
-                let problem = "a sheet that is not perfectly matt is rendered only as the camera sees it";
+                let problem = "a sheet that is not perfectly matte is rendered only as the camera sees it";
                 return Err(Error::usage("--render", problem, "end the name in .exr or .tif"));
             }
             Some(shape) => {

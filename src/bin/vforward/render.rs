@@ -20,7 +20,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", value_parser = cli::pair::<usize>)]
     render_size: (usize, usize),
     /// Position of the camera, in the unit of the panels, for --render and for sheets that are not
-    /// perfectly matt [default: a few degrees off the sun's direction]
+    /// perfectly matte [default: a few degrees off the sun's direction]
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     eye: Option<Vector3<f64>>,
     /// Point that the camera looks at [default: the middle of the sheet]
@@ -36,13 +36,13 @@ pub struct RenderArgs {
 
 impl RenderArgs {
     /// # Errors
-    /// [`Error::Usage`] for a camera without a purpose: a perfectly matt sheet has the same facets from every
-    /// viewpoint.
+    /// [`Error::Usage`] for a camera without a purpose: a perfectly matte sheet has the same facets from
+    /// every viewpoint.
     pub fn check(&self, is_seen: bool) -> Result<()> {
         if self.eye.is_none() || self.render.is_some() || is_seen {
             return Ok(());
         }
-        let problem = "a perfectly matt sheet looks the same from everywhere";
+        let problem = "a perfectly matte sheet looks the same from everywhere";
         Err(Error::usage(
             "--eye",
             problem,

@@ -29,7 +29,7 @@ pub struct Setup<'a> {
     pub(super) noise: Noise,
     pub(super) bounces: Bounces,
     pub(super) model: FacetModel,
-    /// A sheet that is not perfectly matt.
+    /// A sheet that is not perfectly matte.
     sheet: Option<FoldedSheet>,
     emission: &'a Emission,
 }
@@ -54,7 +54,7 @@ impl<'a> Setup<'a> {
             }
             Setting::Surface(_) => Err(Error::field(
                 "geometry",
-                "only folds of two panels are computed for sheets that are not perfectly matt",
+                "only folds of two panels are computed for sheets that are not perfectly matte",
             )),
         });
         let sheet = sheet.transpose()?;
@@ -95,7 +95,7 @@ impl<'a> Setup<'a> {
         Ok((matt + folded.beyond(&albedo), truncation))
     }
 
-    /// Facet RGB at exposure 1 for a perfectly matt sheet.
+    /// Facet RGB at exposure 1 for a perfectly matte sheet.
     pub(super) fn matt_rgb(
         &self,
         model: &FacetModel,

@@ -31,7 +31,7 @@ pub struct SheetArgs {
 }
 
 impl SheetArgs {
-    /// The angular reflection of the sheet; none if it is perfectly matt.
+    /// The angular reflection of the sheet; none if it is perfectly matte.
     ///
     /// # Errors
     /// [`Error::Usage`] if a number is out of range.

@@ -108,7 +108,7 @@ fn say_accuracy(args: &Args, method: Method, fold: &Fold, accuracy: &Accuracy) -
     let tolerance = args.tolerance.unwrap_or(TOLERANCE);
     let too_large = accuracy.facet_mean_error.filter(|error| *error > tolerance).map(|error| {
         let angle_deg = fold.angle_deg();
-        (error, format!("at {angle_deg}° the error of facet means is at best {error:.1e}"))
+        (error, format!("at {angle_deg}° the error of facet means stayed at {error:.1e}"))
     });
     match &too_large {
         Some((_, problem)) if args.tolerance.is_some() => {

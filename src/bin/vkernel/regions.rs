@@ -53,12 +53,16 @@ pub fn seen(args: &Args, path: &Path) -> Result<Seen> {
 
 /// Refuses regions of a photograph in which no fold was detected, or with low confidence.
 fn check_detected(name: &str, regions: &Regions) -> Result<()> {
-    let remedy = "mark its corners with vextract --pick";
+    let mark = "mark its corners with vextract --pick";
     if let Some(reason) = &regions.missing {
-        return Err(Error::regions(name, reason, remedy));
+        return Err(Error::regions(name, reason, mark));
     }
     match regions.confidence {
         Some(confidence) if confidence < DetectedFold::SURE => {
+            let remedy = format!(
+                "look at it with vextract --find --overlay FILE.png: if it is right, \
+                 delete \"confidence\" from these regions, otherwise {mark}"
+            );
             Err(Error::regions(name, DetectedFold::unsure(confidence), remedy))
         }
         _ => Ok(()),

@@ -191,7 +191,7 @@ fn say_accuracy(args: &Args, solved: &Solved) -> Result<()> {
     let Some(error) = error.filter(|error| *error > args.tolerance.unwrap_or(TOLERANCE)) else {
         return Ok(());
     };
-    let problem = format!("on this shape the error of facet means is at best {error:.1e}");
+    let problem = format!("on this shape the error of facet means stayed at {error:.1e}");
     if args.tolerance.is_some() {
         return Err(Error::usage("--tolerance", problem, "give a larger tolerance or --mesh facets"));
     }

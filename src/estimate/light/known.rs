@@ -198,7 +198,8 @@ impl Shown {
         (self.rms >= EXPLAINED).then(|| {
             Doubt::new(
                 format!(
-                    "the known fold's facets differ from the model by {:.1} times the noise in every light",
+                    "the known fold's facets differ from the model by {:.1} times the expected error \
+                     in every light",
                     self.rms
                 ),
                 "check its reflectance, angle and corners, and that the same camera took both",

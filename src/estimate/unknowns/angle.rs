@@ -26,7 +26,7 @@ pub static ANGLE: Unknown = Unknown {
             ideal: |stated| Some(stated.angle_deg),
             least: 0.4,
             words: |Fitted { value, sd, .. }, stated| {
-                format!("the fold is open by {value:.1} ± {sd:.1}°, not {}° as stated", stated.angle_deg)
+                format!("the fold's angle is {value:.1} ± {sd:.1}°, not {}° as stated", stated.angle_deg)
             },
             remedy: "measure the angle again",
         }),

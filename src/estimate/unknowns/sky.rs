@@ -7,11 +7,11 @@ use super::{
 use crate::error::{Error, Result};
 use crate::estimate::photograph::StatedScene;
 
-/// Irradiance from the sky on a plane facing the sun, relative to the sun's.
+/// Irradiance from the sky on an open horizontal plane, relative to the sun's on a plane facing it.
 pub static SKY: Unknown = Unknown {
     name: "sky",
-    description: "Diffuse-to-direct ratio: irradiance that the sky gives an unobstructed plane facing \
-                  the sun, relative to that which the sun gives it",
+    description: "Diffuse-to-direct ratio: irradiance that the sky gives an open horizontal plane \
+                  (a uniform sky: any open plane), relative to that which the sun gives a plane facing it",
     unit: None,
     flag: &Flag {
         value: "sky",

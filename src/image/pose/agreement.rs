@@ -31,7 +31,7 @@ impl fmt::Display for OtherFold {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let FoldAngle { angle_deg, angle_sd_deg, depths: [depth0, depth1] } = self.fold;
         if !self.has_other_panels {
-            return write!(f, "those of a fold open by {angle_deg:.0} ± {angle_sd_deg:.0}°");
+            return write!(f, "those of a fold with an angle of {angle_deg:.0} ± {angle_sd_deg:.0}°");
         }
         write!(f, "those of panels {depth0:.2}")?;
         if (depth1 / depth0).ln().abs() > SAME_FORM {
