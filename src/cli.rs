@@ -23,6 +23,7 @@ pub use served::{Reply, ServedFile, ask_on_page};
 pub use surplus::refuse;
 
 use crate::error::{Error, Result, counted};
+use crate::files::Together;
 pub use crate::message::one_line;
 use crate::message::printable;
 pub use crate::progress::say;
@@ -149,10 +150,12 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
     }
 }
 
-/// Runs the tool between opening and finishing its output; returns the samples that carry an error.
+/// Runs the tool between opening and finishing its output; returns the samples that carry an error. No file
+/// appears before all of the run's outputs are complete.
 fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Result<Failures> {
     let common = args.common();
     start_threads(common.threads)?;
+    let together = Together::begin();
     let mut out = match &common.resume {
         Some(path) => Output::resume(path, &common.save, !common.no_history)?,
         None => Output::to(common.output.as_deref(), &common.save)?,
@@ -164,17 +167,18 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
         (None, Some(what)) => print_list(what, &mut out),
         (None, None) => tool(args, &mut out),
     };
+    if done.as_ref().is_err_and(|e| !e.is_finding()) {
+        return done.map(|()| Failures::default());
+    }
+    let failures = out.finish()?;
     match done {
-        Err(e) if !e.is_finding() => Err(e),
-        Err(e @ Error::NothingToDraw(_)) => {
-            let failures = out.finish()?;
-            if !failures.any() {
-                return Err(e);
-            }
+        // the records that carry an error say why there is nothing to draw
+        Err(e @ Error::NothingToDraw(_)) if failures.any() => {
             say(A::command().get_name(), &e.to_string());
-            Ok(failures)
+            together.keep().map(|()| failures)
         }
-        done => out.finish().and_then(|failures| done.map(|()| failures)),
+        Err(e @ Error::NothingToDraw(_)) => Err(e),
+        done => together.keep().and_then(|()| done.map(|()| failures)),
     }
 }
 

@@ -210,7 +210,7 @@ impl Error {
     }
 
     /// True for the finding of a check, and for records that lack what a drawing needs: the output is
-    /// complete and kept.
+    /// complete. It is kept if it states why: the report of the check, or records that carry an error.
     #[must_use]
     pub fn is_finding(&self) -> bool {
         matches!(self, Self::BrokenLaw(_) | Self::NothingToDraw(_))

@@ -3,6 +3,7 @@
 
 mod checksum;
 pub(crate) mod forms;
+mod together;
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -11,7 +12,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub use checksum::sha256;
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
+pub(crate) use together::Together;
+pub use together::keep_complete;
 use unicode_normalization::UnicodeNormalization;
 
 use crate::error::{Error, Result};
@@ -100,23 +103,43 @@ impl Saved {
         saved.keep()
     }
 
-    /// Renames the file once it is on disk, when nothing else can fail.
+    /// Renames the file once it is on disk; in a tool, when all of its files are.
     ///
     /// # Errors
     /// [`Error::File`] if the rest of it cannot be written, or the file cannot be renamed.
     pub fn keep(mut self) -> Result<()> {
-        if !matches!(self.target, Target::Special(_)) {
-            self.file_mut().sync_data().map_err(|e| Error::file(self.path.display(), e))?;
+        if matches!(self.target, Target::Special(_)) {
+            return Ok(());
         }
-        let named = match self.target {
+        self.file_mut().sync_data().map_err(|e| Error::file(self.path.display(), e))?;
+        together::wait(self).map_or(Ok(()), |alone| alone.named()?.rename())
+    }
+
+    /// Gives the file a temporary name beside its final one.
+    fn named(self) -> Result<Named> {
+        let Self { target, path, _claim } = self;
+        let temporary = match target {
             #[cfg(target_os = "linux")]
-            Target::Unnamed(file) => unnamed::temporary_name(&file, &self.path),
-            Target::Named(file) => Ok(file.into_temp_path()),
-            Target::Special(_) => return Ok(()),
+            Target::Unnamed(file) => unnamed::temporary_name(&file, &path).map(Some),
+            Target::Named(file) => Ok(Some(file.into_temp_path())),
+            Target::Special(_) => Ok(None),
         };
-        named
-            .and_then(|named| named.persist(&self.path).map_err(|e| e.error))
-            .map_err(|e| Error::file(self.path.display(), e))
+        let temporary = temporary.map_err(|e| Error::file(path.display(), e))?;
+        Ok(Named { temporary, path, _claim })
+    }
+}
+
+/// A complete file under a temporary name; none for a pipe or device.
+struct Named {
+    temporary: Option<TempPath>,
+    path: PathBuf,
+    _claim: Option<Claim>,
+}
+
+impl Named {
+    fn rename(self) -> Result<()> {
+        let renamed = self.temporary.map_or(Ok(()), |temporary| temporary.persist(&self.path));
+        renamed.map_err(|e| Error::file(self.path.display(), e.error))
     }
 }
 

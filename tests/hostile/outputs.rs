@@ -1,6 +1,7 @@
 //! Where records, arrays and drawings go: each to a file of its own, and to none that is not one.
 
 use crate::common::Workdir;
+use crate::ready::{ready, sh};
 use crate::{assert_refused, case};
 
 #[test]
@@ -50,6 +51,40 @@ fn names_of_outputs() {
             case("vkernel --save kernel=dangling", 1, &["dangling", "a link to a missing file"]),
         ],
     );
+}
+
+/// All outputs of a run appear together when it has ended well, so that one that fails replaces none and adds
+/// none, whichever of them fails, and when.
+#[test]
+fn a_failing_run_changes_no_output() {
+    let folder = ready();
+    let setup = "head -n 1 samples.ndjson > empty.ndjson; for file in old old.svg old.npy; do echo old > $file; \
+        done; ls -A; cat old*";
+    let before = sh(&folder, setup).stdout;
+    for run in [
+        "vestimate empty.ndjson --plot old.svg -o old",
+        "vscore empty.ndjson --plot new.svg -o old",
+        "vscore empty.ndjson --report new.html --save rmse=old.npy",
+        "vestimate -q samples.ndjson --save nothing=old.npy --plot old.svg --trace new -o old --spectra new.csv",
+        "vestimate -q samples.ndjson --plot old.svg --trace old --save reflectance=old.npy > /dev/full",
+        "vscore estimates.ndjson --save nothing=old.npy --report new.html --plot old.svg -o old",
+        "vkernel --facets 2x2 --plot old.svg --save kernel=old.npy > /dev/full",
+        "vforward -q scene.json --reflectance 0.5 --render new.exr --save nothing=old.npy -o old",
+        "extract -q photo.exr --overlay new.png --save nothing=old.npy -o old",
+    ] {
+        let after = sh(&folder, &format!("{{ {run}; }} > /dev/null || echo $? >&2; ls -A; cat old*"));
+        assert!(after.stderr.ends_with("\n1\n"), "{run}: {after:?}");
+        assert_eq!(after.stdout, before, "{run}");
+    }
+}
+
+/// Samples that carry an error say why there is nothing to draw, and are kept.
+#[test]
+fn records_that_say_why_nothing_is_drawn_are_kept() {
+    let folder = ready();
+    let run = "sed 's/facet_rgb/facets/' samples.ndjson | vestimate --plot new.svg -o new || echo $?; ls new*; \
+        grep -c '\"error\"' new";
+    assert_eq!(sh(&folder, run).stdout, "3\nnew\n24\n");
 }
 
 /// Where the corners of a photograph are is said once its sample is out.

@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use vfold::cli::{self, Reply, ServedFile};
+use vfold::files::keep_complete;
 use vfold::image::{Detections, Photograph, Point, find_all, find_fold_around, parse_point, write_preview};
 use vfold::stream::{Output, picked_line};
 use vfold::{Error, Result};
@@ -69,6 +70,7 @@ fn preview(args: &Args, path: &Path, photograph: &Photograph) -> Result<Vec<u8>>
     let folder = tempfile::tempdir().map_err(unwritten)?;
     let file = folder.path().join("photograph.png");
     write_preview(&file, photograph, path, &balance::of_photograph(args, photograph))?;
+    keep_complete()?; // a page needs it now
     std::fs::read(&file).map_err(unwritten)
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use vfold::files::{is_pattern, named};
+use vfold::files::{is_pattern, keep_complete, named};
 use vfold::image::{Balance, FacetMeasurement, Grid, Photograph, PixelRun, write_overlay, write_preview};
 use vfold::{Error, Result};
 
@@ -46,6 +46,7 @@ impl PictureArgs {
         for image in images {
             let photograph = open(image)?;
             write_preview(&named(file, &name(image)), &photograph, image, &balance(&photograph))?;
+            keep_one_of_many(file)?;
         }
         Ok(true)
     }
@@ -64,8 +65,15 @@ impl PictureArgs {
     ) -> Result<()> {
         let Some(file) = &self.overlay else { return Ok(()) };
         let left_out: Vec<PixelRun> = facets.iter().flat_map(|facet| facet.left_out.clone()).collect();
-        write_overlay(&named(file, &name(image)), photograph, grids, &left_out, balance)
+        write_overlay(&named(file, &name(image)), photograph, grids, &left_out, balance)?;
+        keep_one_of_many(file)
     }
+}
+
+/// Lets pictures appear one by one if their name is a pattern. They may be more than a process can hold open,
+/// and with --resume the records that they belong to are written one by one, too.
+fn keep_one_of_many(file: &Path) -> Result<()> {
+    if is_pattern(file) { keep_complete() } else { Ok(()) }
 }
 
 /// The name of a sample and its drawings, from its photograph.
