@@ -10,7 +10,7 @@ use super::fluorescence::{FluorescenceRecord, LightThroughRecord};
 use super::inferred_light::InferredLightRecord;
 use super::noise::NoiseRecord;
 use super::quantities::Quantities;
-use super::sample::{Sample, checked, checked_radiance};
+use super::sample::{Sample, checked, checked_deviations, checked_radiance};
 use super::scene::Scene;
 use super::skipped::SkippedRecord;
 use crate::colorimetry::ErrorBars;
@@ -279,6 +279,19 @@ impl EstimateRecord {
         count > 1 && counts.all(|other| other == count)
     }
 
+    /// Refuses negative standard deviations, which would be drawn, written and converted like others.
+    fn check_deviations(&self) -> Result<()> {
+        let sent = self.fluorescence.iter().map(|found| &found.size_sd);
+        checked_deviations("estimate.reflectance_sd", self.reflectance_sd.iter().flatten())?;
+        checked_deviations(
+            "estimate.total_radiance_factor_sd",
+            self.total_radiance_factor_sd.iter().flatten(),
+        )?;
+        checked_deviations("estimate.fluorescence.size_sd", sent)?;
+        checked_deviations("estimate.light.power_sd", self.light.iter().flat_map(|light| &light.power_sd))?;
+        checked_deviations("estimate.fit", self.fits().map(|(_, fitted)| &fitted.sd))
+    }
+
     /// Error bars of the reflectance; none if the method does not provide them.
     #[must_use]
     pub fn error_bars(&self) -> Option<ErrorBars<'_>> {
@@ -425,7 +438,8 @@ impl Sample {
     /// The estimate; none if the sample has none, or carries an error.
     ///
     /// # Errors
-    /// [`Error::Field`] unless it is a spectrum with as many values as wavelengths, each from 0 to 1.
+    /// [`Error::Field`] unless it is a spectrum with as many values as wavelengths, each from 0 to 1, and
+    /// standard deviations from 0.
     pub fn estimate(&self) -> Result<Option<EstimateRecord>> {
         match self.made::<EstimateRecord>("estimate")? {
             Some(estimate) if !estimate.is_spectrum() => {
@@ -436,6 +450,7 @@ impl Sample {
                 checked("estimate", &estimate.reflectance)?;
                 let total = estimate.total_radiance_factor.iter().flatten();
                 checked_radiance("estimate.total_radiance_factor", total)?;
+                estimate.check_deviations()?;
                 Ok(Some(estimate))
             }
             None => Ok(None),

@@ -57,6 +57,16 @@ pub(super) fn checked_radiance<'a>(field: &str, factors: impl IntoIterator<Item 
     }
 }
 
+/// Rejects impossible standard deviations in a field.
+pub(super) fn checked_deviations<'a>(field: &str, sd: impl IntoIterator<Item = &'a f64>) -> Result<()> {
+    match sd.into_iter().find(|value| !(0.0..=LARGEST).contains(*value)) {
+        Some(value) => {
+            Err(Error::field(field, format!("{value:e} is not a standard deviation; give numbers from 0")))
+        }
+        None => Ok(()),
+    }
+}
+
 impl ReflectanceRecord {
     /// A spectrum on the wavelengths of `grid`.
     ///

@@ -213,6 +213,13 @@ fn estimates() {
         ("s/\"estimate\":/\"guess\":/", "", "run the samples through vestimate first"),
         ("2s/\\(\"estimate\".*\"wavelengths_nm\":\\[\\)400/\\1401/", "", "estimate it again"),
         ("s/\"truth\":/\"guess\":/", "", "give --truth SPEC"),
+        ("s/\"reflectance_sd\":\\[/&-/", "", "estimate.reflectance_sd"),
+        ("s/\"reflectance_sd\":\\[/&-/", "--colour", "is not a standard deviation; give numbers from 0"),
+        (
+            "s/\"residual_rms\"/\"fit\":{\"sky\":{\"value\":1,\"sd\":-1,\"supported\":true}},&/",
+            "",
+            "estimate.fit",
+        ),
         ("", "--truth cc24", "--truth has no spectrum '0.5' among its 24"),
     ] {
         assert_marked(&folder, &format!("sed '{edit}' estimated.ndjson | vscore {flags}"), says);
