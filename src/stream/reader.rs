@@ -35,6 +35,18 @@ pub enum Record {
     Other(Fields),
 }
 
+impl Record {
+    /// Its fields.
+    #[must_use]
+    pub fn fields(&self) -> &Fields {
+        match self {
+            Self::Scene(scene) => &scene.fields,
+            Self::Sample(sample) => &sample.fields,
+            Self::Other(fields) => fields,
+        }
+    }
+}
+
 /// Reads records from a file or from standard input.
 pub struct Reader {
     source: Box<dyn BufRead + Send>,

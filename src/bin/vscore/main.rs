@@ -148,17 +148,19 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
             }
             Record::Other(_) => {}
         }
-        match (&table, &record) {
-            (Some(table), Record::Sample(sample)) => table.row(out, sample),
-            (Some(_), _) => Ok(()),
-            (None, record) => out.record(record),
-        }
+        let Some(table) = &table else { return out.record(&record) };
+        out.saves.record(record.fields())?; // as if the record were written
+        if let Record::Sample(sample) = &record { table.row(out, sample) } else { Ok(()) }
     })?;
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))?;
     let by = groups.found()?;
+    let summary = summary(groups.all(), by)?;
     match table {
-        Some(table) => table.footer(out, groups.all(), by)?,
-        None => out.fields(&summary(groups.all(), by)?)?,
+        Some(table) => {
+            out.saves.record(&summary)?;
+            table.footer(out, groups.all(), by)?;
+        }
+        None => out.fields(&summary)?,
     }
     gallery.as_ref().map_or(Ok(()), |gallery| draw(args, gallery, groups.all(), &scorer))
 }
