@@ -42,7 +42,8 @@ pub struct CalibrationArgs {
     chart_cos: f64,
     /// Estimate the camera's sensitivities from the chart in IMAGE under --illuminant, write them and
     /// exit; use the file with --camera
-    #[arg(long, value_name = "FILE.csv", requires = "chart_place")]
+    #[arg(long, value_name = "FILE.csv", requires = "chart_place",
+        conflicts_with_all = ["overlay", "output", "resume", "save"])]
     pub save_camera: Option<PathBuf>,
     /// Reflectance of the white card; without it, the white region or picture is taken for white printing
     /// paper, which shows the exposure to 6 %

@@ -14,15 +14,20 @@ pub struct PictureArgs {
     #[arg(long, value_name = "FILE.png")]
     overlay: Option<PathBuf>,
     /// Write a small picture for finding corners with share/picker.html, and exit; {} as above
-    #[arg(long, value_name = "FILE.png")]
+    #[arg(long, value_name = "FILE.png", conflicts_with_all = ["overlay", "save_camera", "output", "resume",
+        "save"])]
     preview: Option<PathBuf>,
 }
 
 impl PictureArgs {
     /// # Errors
-    /// [`Error::Usage`] if several photographs would be drawn into one file.
+    /// [`Error::Usage`] if several photographs would be drawn into one file, or one into none.
     pub fn check(&self, images: &[PathBuf]) -> Result<()> {
         for (flag, file) in [("--overlay", &self.overlay), ("--preview", &self.preview)] {
+            if file.as_deref() == Some(Path::new("-")) {
+                let problem = "standard output is for records, and a picture needs a file";
+                return Err(Error::usage(flag, problem, "name it, as in overlay.png"));
+            }
             let shared = file.as_deref().is_some_and(|file| !is_pattern(file));
             if shared && images.len() > 1 {
                 let problem = format!("{} photographs would be drawn into one picture", images.len());
