@@ -125,7 +125,7 @@ pub trait ToolArgs: Parser {
 /// some records carry an `error`; standard error states how many, and the first reason. An [empty
 /// pipe](Error::EmptyPipe) causes no message.
 pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
-    let done = match A::try_parse() {
+    let done = match parsed::<A>() {
         Ok(args) => without_panic(|| frame(&args, tool)),
         Err(help) if !help.use_stderr() => help.print().map(|()| Failures::default()).map_err(Error::Output),
         Err(error) => {
@@ -148,6 +148,17 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
             ExitCode::from(e.exit_status())
         }
     }
+}
+
+/// The tool's arguments. A negative number is the value of the flag before it, which refuses it in its own
+/// words, and no flag itself.
+fn parsed<A: ToolArgs>() -> std::result::Result<A, clap::Error> {
+    let with_negative = |arg: clap::Arg| {
+        let takes_value = arg.get_action().takes_values() && !arg.is_positional();
+        if takes_value { arg.allow_negative_numbers(true) } else { arg }
+    };
+    let mut matches = A::command().mut_args(with_negative).try_get_matches()?;
+    A::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut A::command()))
 }
 
 /// Runs the tool between opening and finishing its output; returns the samples that carry an error. No file

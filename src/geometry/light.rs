@@ -5,6 +5,9 @@ use nalgebra::Vector3;
 use crate::error::{Error, Result};
 use crate::geometry::Fold;
 
+/// Largest finite ratio of the sky's irradiance to the sun's.
+const SKY_MAX: f64 = 1e6;
+
 /// A sun and a uniform sky.
 ///
 /// A plane facing the sun receives irradiance 1 from it and, if unobstructed, `sky` from the sky. Without a
@@ -54,11 +57,11 @@ impl Light {
             ));
         }
         let is_sky_alone = sky == f64::INFINITY;
-        if !(0.0..=1e6).contains(&sky) && !is_sky_alone {
+        if !(0.0..=SKY_MAX).contains(&sky) && !is_sky_alone {
             return Err(Error::usage(
                 "--sky",
                 format!("{sky} is not a ratio to the sun's irradiance"),
-                "give 0 (no sky) or more, or 'only'",
+                format!("give 0 (no sky) to {SKY_MAX:e}, or 'only'"),
             ));
         }
         let (sun, sky) = if is_sky_alone { (0.0, 1.0) } else { (1.0, sky) };

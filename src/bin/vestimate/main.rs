@@ -54,7 +54,7 @@ struct Args {
     prior: Option<String>,
     /// Weight of the squared second differences of the spectrum, for --prior smooth and --method park or
     /// khan; auto: as the noise allows [default: 1e-5; 1e-4 for park, 0 for khan]
-    #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = settings::smoothness)]
+    #[arg(long, value_name = "X|auto", value_parser = settings::smoothness)]
     smoothness: Option<Smoothness>,
     /// Standard deviation of the noise of every facet, on the scale of its value; auto: from the samples,
     /// else from what no reflectance explains
@@ -63,7 +63,7 @@ struct Args {
     noise_sd: NoiseSd,
     /// Independent error of each value, relative to it, 0 to 1, in addition to the model error of real sheets
     /// [default: 3e-4 for photographs, 0 for computed facets]
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X")]
     model_error: Option<f64>,
     /// Pixel value of a perfect white diffuser facing the sun; free: fit it; sum: normalise by sums, as
     /// in the paper [default: the sample's, else free]

@@ -20,8 +20,7 @@ use super::{facing, paper};
 #[command(next_help_heading = "Calibration")]
 pub struct CalibrationArgs {
     /// Value of a perfect white diffuser facing the sun, in its strongest channel, above 0, if known
-    #[arg(long, value_name = "X", conflicts_with_all = ["chart", "white_region"],
-        allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", conflicts_with_all = ["chart", "white_region"])]
     exposure: Option<f64>,
     /// Reflectances of the chart's patches, row by row
     #[arg(long, value_name = "SPEC", default_value = "cc24", requires = "chart_place")]
@@ -32,13 +31,7 @@ pub struct CalibrationArgs {
     chart_grid: (usize, usize),
     /// Cosine of the angle between the sun and the chart's normal, above 0 to 1; 1: the chart faces the
     /// sun, unlike the panels
-    #[arg(
-        long,
-        value_name = "X",
-        default_value_t = 1.0,
-        requires = "chart_place",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "X", default_value_t = 1.0, requires = "chart_place")]
     chart_cos: f64,
     /// Estimate the camera's sensitivities from the chart in IMAGE under --illuminant, write them and
     /// exit; use the file with --camera
@@ -50,13 +43,7 @@ pub struct CalibrationArgs {
     #[arg(long, value_name = "SPEC", requires = "white_place")]
     white_reflectance: Option<String>,
     /// Cosine of the angle between the sun and the normal of card or paper, above 0 to 1
-    #[arg(
-        long,
-        value_name = "X",
-        default_value_t = 1.0,
-        requires = "white_place",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "X", default_value_t = 1.0, requires = "white_place")]
     white_cos: f64,
 }
 

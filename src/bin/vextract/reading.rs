@@ -17,11 +17,11 @@ pub struct ReadingArgs {
     transfer: Transfer,
     /// Stored number for no light; auto: the darkest, if it is the same in all channels and not 0
     /// [default: the RAW file's, else 0]
-    #[arg(long, value_name = "X|auto", allow_negative_numbers = true, value_parser = black_level)]
+    #[arg(long, value_name = "X|auto", value_parser = black_level)]
     black_level: Option<BlackLevel>,
     /// Stored number for 1; pixels at or above it count as clipped [default: the RAW file's, else 255, 65535
     /// or, for floats, 1]
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X")]
     white_level: Option<f64>,
     /// Photograph of a white sheet with the same framing, to divide by: it corrects uneven light; its mean
     /// counts as 1. If both files record exposure time, aperture and sensitivity, and nothing else shows the

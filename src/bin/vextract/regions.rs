@@ -38,7 +38,7 @@ pub struct RegionArgs {
     #[arg(long, value_name = "FILE")]
     regions: Option<PathBuf>,
     /// Keep this distance from the panels' edges, px
-    #[arg(long, value_name = "PX", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PX", default_value_t = 0.0)]
     pub margin: f64,
 }
 

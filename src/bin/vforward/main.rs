@@ -65,7 +65,7 @@ struct Args {
     facet_reflectance: Vec<PathBuf>,
     /// The sheet fluoresces: it emits this fraction of white's light, named as for --reflectance,
     /// wherever the light of --illuminant falls directly
-    #[arg(long, value_name = "SPEC", allow_negative_numbers = true,
+    #[arg(long, value_name = "SPEC",
         conflicts_with_all = ["panel_reflectance", "facet_reflectance", "reference_panel", "material",
             "sheet"])]
     fluorescence: Option<String>,
@@ -90,14 +90,14 @@ struct Args {
         conflicts_with_all = ["material", "sheet"])]
     bounces: BouncesArg,
     /// Value of a perfect white diffuser facing the sun, in its strongest channel, above 0
-    #[arg(long, value_name = "X", default_value_t = 1.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", default_value_t = 1.0)]
     exposure: f64,
     /// Standard deviation of the noise of every facet, on the scale of its value (with --render: of every
     /// pixel of the picture only)
-    #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", default_value_t = 0.0)]
     noise_sd: f64,
     /// Standard deviation of photon noise at value 1; it grows with the square root of the value
-    #[arg(long, value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", default_value_t = 0.0)]
     photon_noise: f64,
     /// Seed of the noise
     #[arg(long, value_name = "N", default_value_t = 0)]

@@ -30,7 +30,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "X,Y,Z", requires = "render", value_parser = point, allow_hyphen_values = true)]
     up: Option<Vector3<f64>>,
     /// Horizontal field of view, degrees, between 0 and 180 [default: fits the sheet]
-    #[arg(long, value_name = "DEG", requires = "render", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", requires = "render")]
     field_of_view_deg: Option<f64>,
 }
 

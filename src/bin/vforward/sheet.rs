@@ -10,7 +10,7 @@ use vfold::{Error, Result};
 pub struct SheetArgs {
     /// Specular weight, 0 to 2: strength of the surface's reflection, that of a closed surface of refractive
     /// index 1.5 being 1; the camera stands at --eye
-    #[arg(long, alias = "gloss", value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, alias = "gloss", value_name = "X", default_value_t = 0.0)]
     specular_weight: f64,
     /// Roughness of the surface: GGX's alpha, 0.25 to 1
     #[arg(
@@ -18,15 +18,14 @@ pub struct SheetArgs {
         alias = "gloss-roughness",
         value_name = "X",
         default_value_t = 0.42,
-        allow_negative_numbers = true,
         requires = "specular_weight"
     )]
     specular_roughness: f64,
     /// Roughness of the body of the sheet: Oren and Nayar's sigma, degrees, 0 to 45
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     body_roughness_deg: f64,
     /// Sheen, 0 to 2: brightening of the body at grazing incidence or viewing, as of felt
-    #[arg(long, alias = "fuzz", value_name = "X", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, alias = "fuzz", value_name = "X", default_value_t = 0.0)]
     sheen: f64,
 }
 

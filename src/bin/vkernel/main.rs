@@ -37,7 +37,7 @@ use vfold::{Error, Result};
 )]
 struct Args {
     /// Angle between the two panels, degrees, above 0 to 180 (flat) [default: that of --regions, or 45]
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG")]
     angle_deg: Option<f64>,
     /// Panel size, along the crease x away from it; only the ratio matters [default: that of --regions,
     /// or 1x1]
@@ -48,7 +48,7 @@ struct Args {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["shape", "folds", "ridge_deg", "bow_deg"])]
     regions: Option<PathBuf>,
     /// Depth of panel 1, in the unit of --panel, if it differs from panel 0's
-    #[arg(long, value_name = "DEPTH", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEPTH")]
     panel1_depth: Option<f64>,
     /// Facets per panel, over which colour is averaged: rows away from the crease x columns along it
     #[arg(long, value_name = "ROWSxCOLS", default_value = "10x10", value_parser = cli::pair::<usize>)]
@@ -65,7 +65,7 @@ struct Args {
     #[arg(long, value_name = "SAMPLING")]
     sampling: Option<SamplingName>,
     /// Samples per form factor (point pairs), or per facet row (rays), 2 or more [default: 10000]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N")]
     samples: Option<u32>,
     /// Seed of the samples [default: 0]
     #[arg(long, value_name = "N")]
@@ -83,20 +83,20 @@ struct Args {
     /// shapes and with --light 1e-6 to 0.1, for reflectances up to 0.9, relative to a tenth of the mean for
     /// dark facets [default: 1e-5, or the least that a narrow fold allows; on shapes 5e-3, or the least
     /// possible]
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X")]
     tolerance: Option<f64>,
     /// Angle of the sun off the plane that halves the fold, degrees, less than half of --angle-deg;
     /// positive lights panel 0 more
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     tilt_deg: f64,
     /// Angle by which the sun leans along the crease, degrees, between -90 and 90
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     slant_deg: f64,
     /// Diffuse-to-direct ratio: irradiance by the sky, uniform or of --sky-type, relative to the sun's;
     /// on an open plane facing the sun, or, for a sky with a horizon, on an open horizontal plane.
     /// sun:40deg or sun:LAT,LON,TIME: that of a cloudless sky with the sun there; only: no sun, and a sky
     /// of irradiance 1
-    #[arg(long, value_name = "F|sun:WHERE|only", default_value_t = 0.0, allow_negative_numbers = true,
+    #[arg(long, value_name = "F|sun:WHERE|only", default_value_t = 0.0,
         value_parser = sky::share)]
     sky: f64,
     /// Name of the scene

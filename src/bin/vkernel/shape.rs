@@ -47,18 +47,12 @@ pub struct ShapeArgs {
     #[arg(long, value_name = "N", default_value_t = 1)]
     folds: usize,
     /// Angle between the two panels of a ridge, on its back, degrees [default: that of the valleys]
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG")]
     ridge_deg: Option<f64>,
     /// Angle by which each panel curves away from the other between the crease, where they meet at
     /// --angle-deg, and its end, like the pages of an open book; degrees, between -180 and 180; negative:
     /// towards the other, as in a trough
-    #[arg(
-        long,
-        visible_alias = "bow",
-        value_name = "DEG",
-        default_value_t = 0.0,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, visible_alias = "bow", value_name = "DEG", default_value_t = 0.0)]
     bow_deg: f64,
 }
 
