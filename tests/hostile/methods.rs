@@ -37,6 +37,23 @@ fn flags_that_do_not_fit_the_method() {
     );
 }
 
+/// A plan has no samples and makes no search: what it would ignore is refused.
+#[test]
+fn flags_that_do_not_fit_a_plan() {
+    assert_refused(
+        SHEETS,
+        &[
+            case("vestimate fold.ndjson --plan --plot x.svg", 2, &["--plan", "--plot"]),
+            case("vestimate fold.ndjson --plan --spectra x.csv", 2, &["--plan", "--spectra"]),
+            case("vestimate fold.ndjson --plan --trace x", 2, &["--plan", "--trace"]),
+            case("vestimate fold.ndjson --plan --start 0.5", 2, &["--plan", "--start"]),
+            case("vestimate fold.ndjson --plan --smoothness 5", 2, &["--plan", "--smoothness"]),
+            case("vestimate fold.ndjson --plan --illuminants no.csv", 2, &["--plan", "--illuminants"]),
+            case("vestimate fold.ndjson --plan --noise-sd auto", 2, &["--noise-sd", "'auto'", "--plan"]),
+        ],
+    );
+}
+
 #[test]
 fn several_lights() {
     assert_refused(

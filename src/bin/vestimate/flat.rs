@@ -153,6 +153,7 @@ fn check_fold(args: &MethodArgs) -> Result<()> {
 /// Refuses flags that do not apply to flat sheets.
 fn check_flat(args: &super::Args, name: &str) -> Result<()> {
     let surplus = [
+        ("--plan", args.planning.plan),
         ("--prior", args.prior.is_some()),
         ("--smoothness auto", matches!(args.smoothness, Some(Smoothness::Auto))),
         ("--noise-sd", !matches!(args.noise_sd, NoiseSd::Auto)),
@@ -161,7 +162,6 @@ fn check_flat(args: &super::Args, name: &str) -> Result<()> {
         ("--start", args.start.is_some()),
         ("--reference-panel", args.reference_panel.is_some()),
         ("--trace", args.trace.is_some()),
-        ("--plan", args.planning.plan),
     ];
     refuse(surplus, &format!("not used by --method {name}"), "leave one of them out")
 }

@@ -58,8 +58,8 @@ struct Args {
     smoothness: Option<Smoothness>,
     /// Standard deviation of the noise of every facet, on the scale of its value; auto: from the samples,
     /// else from what no reflectance explains
-    #[arg(long, value_name = "X|auto", default_value = "auto", allow_negative_numbers = true,
-        value_parser = settings::noise_sd)]
+    #[arg(long, value_name = "X|auto", default_value = "auto",
+        default_value_if("plan", "true", plan::NOISE_SD), value_parser = settings::noise_sd)]
     noise_sd: NoiseSd,
     /// Independent error of each value, relative to it, 0 to 1, in addition to the model error of real sheets
     /// [default: 3e-4 for photographs, 0 for computed facets]

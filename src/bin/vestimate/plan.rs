@@ -19,7 +19,7 @@ use super::join;
 use super::settings::NoiseSd;
 
 /// Default noise of facets, white being 1.
-const NOISE_SD: f64 = 1e-3;
+pub const NOISE_SD: &str = "1e-3";
 
 /// What is planned.
 #[derive(Args)]
@@ -28,7 +28,7 @@ pub struct PlanArgs {
     /// Take scenes without samples and report the expected errors: one record per scene, for --noise-sd
     /// [default: 1e-3]; for ideal folds, for photographs of real sheets with --fit auto, and with --join
     /// for the first scene together with each of the others
-    #[arg(long, conflicts_with_all = ["plot", "trace"])]
+    #[arg(long, conflicts_with_all = ["plot", "trace", "spectra", "start", "smoothness", "illuminants"])]
     pub plan: bool,
     /// Reflectances that will be photographed [default: cc24]
     #[arg(long, value_name = "SPEC", requires = "plan")]
@@ -140,7 +140,7 @@ impl PlanArgs {
     /// The sheets in a scene: their facets are free of noise, but are assumed to have it.
     fn planned(&self, estimator: &Estimator, mut scene: Scene) -> Result<Planned> {
         let context = estimator.scene(&mut scene)?;
-        let (grid, model, noise_sd) = (scene.grid()?, Setting::of(&scene)?.model()?, noise_sd(estimator));
+        let (grid, model, noise_sd) = (scene.grid()?, Setting::of(&scene)?.model()?, noise_sd(estimator)?);
         let exposure = estimator.asked.exposure_or(Exposure::Known(1.0)).known().unwrap_or(1.0);
         let spectra = estimator.args().common.reflectances(self.set())?;
         let facets = spectra.iter().map(|spectrum| {
@@ -178,7 +178,7 @@ impl PlanArgs {
                 angle_deg: planned.angle_deg,
                 with_photograph: other.map(|other| (&other.scene, other.angle_deg)),
                 reflectances: self.set(),
-                noise_sd: noise_sd(estimator),
+                noise_sd: noise_sd(estimator)?,
                 rmse: expected.rmse(),
                 fitted_sd: expected.fitted_sd(),
             },
@@ -197,7 +197,8 @@ impl Planned {
         match &self.sheets {
             Sheets::Ideal(sheets) => {
                 let exposure = estimator.asked.exposure_or(Exposure::Known(1.0));
-                let of = |rgb| estimator.of_facets(&self.context, rgb, noise_sd(estimator), exposure);
+                let noise_sd = noise_sd(estimator)?;
+                let of = |rgb| estimator.of_facets(&self.context, rgb, noise_sd, exposure);
                 sheets.iter().map(of).collect()
             }
             Sheets::Real(sheets) => {
@@ -221,9 +222,15 @@ impl Planned {
 }
 
 /// Noise of the facets.
-fn noise_sd(estimator: &Estimator) -> f64 {
+///
+/// # Errors
+/// [`Error::Usage`] if it is to be taken from samples, which a plan has not.
+fn noise_sd(estimator: &Estimator) -> Result<f64> {
     match estimator.args().noise_sd {
-        NoiseSd::All(sd) => sd,
-        NoiseSd::Auto => NOISE_SD,
+        NoiseSd::All(sd) => Ok(sd),
+        NoiseSd::Auto => {
+            let problem = "'auto' takes the noise from samples, and --plan has none";
+            Err(Error::usage("--noise-sd", problem, "give a number, or leave it out"))
+        }
     }
 }
