@@ -343,6 +343,26 @@ fn written_tables_are_safe_to_open() {
     );
 }
 
+/// Samples whose names no column can have, or that readers would trim to one.
+#[test]
+fn written_tables_are_read_whatever_the_samples_are_called() {
+    check(
+        "true",
+        r#"
+        vkernel --facets 2x2 | vforward --reflectance 0.2 0.3 0.4 0.5 0.6 -o plain.ndjson
+        sed 's/"id":"0.2"/"id":""/; s/"id":"0.3"/"id":"wavelength_nm"/; s/"id":"0.4"/"id":"  "/
+            s/"id":"0.5"/"id":"b"/; s/"id":"0.6"/"id":"b "/' plain.ndjson > samples.ndjson
+        vestimate samples.ndjson --spectra written.csv -o estimates.ndjson
+        vestimate samples.ndjson --spectra written.sp -o again.ndjson
+        for file in csv sp; do
+            vkernel --facets 1x1 | vforward --reflectance written.$file 2>/dev/null \
+                | sed -n 's/.*"id":"written:\(.*\)","facet_rgb".*/\1/p' > names.$file
+        done
+        printf '%s\n' sample 'wavelength_nm (2)' 'sample (2)' b 'b (2)' | cmp - names.csv
+        cmp names.csv names.sp"#,
+    );
+}
+
 /// XYZ that Argyll computes from the file, D50 and the 2° observer; it sums bands of 5 nm with tables of its
 /// own.
 #[test]

@@ -67,6 +67,11 @@ pub fn write(path: &Path, samples: &[Measured]) -> Result<()> {
     Saved::write(path, &bytes)
 }
 
+/// The name of the column of wavelengths.
+const WAVELENGTHS: &str = "wavelength_nm";
+/// The name of a sample without one.
+const NAMELESS: &str = "sample";
+
 enum Format {
     Csv,
     Cgats,
@@ -107,12 +112,14 @@ fn common_nm<'a>(path: &Path, samples: &'a [Measured]) -> Result<&'a [f64]> {
     }
 }
 
-/// Names that no other sample or its standard deviation has, with control characters escaped and letters
-/// `unfit` for the format replaced.
+/// Names that no other sample or its standard deviation has, with control characters escaped, letters `unfit`
+/// for the format replaced and spaces around them removed, as readers do. Columns without a name, or with
+/// that of the wavelengths, could not be read.
 fn names(samples: &[Measured], unfit: &str) -> Vec<String> {
-    let mut taken = HashSet::new();
+    let mut taken = HashSet::from([WAVELENGTHS.to_owned()]);
     let mut unique = |sample: &Measured| {
         let plain = printable(&sample.name).replace(|letter: char| unfit.contains(letter), "_");
+        let plain = if plain.trim().is_empty() { NAMELESS } else { plain.trim() }.to_owned();
         let numbered = (2..).map(|n| format!("{plain} ({n})"));
         let both = |name: &String| [name.clone(), format!("{name}{SD_ENDING}")];
         let is_free = |name: &String| {
@@ -138,7 +145,7 @@ fn csv(path: &Path, samples: &[Measured]) -> Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut write =
         |row: Vec<String>| writer.write_record(row).map_err(|e| Error::file(path.display(), e.into()));
-    write(iter::once("wavelength_nm".to_owned()).chain(heads).collect())?;
+    write(iter::once(WAVELENGTHS.to_owned()).chain(heads).collect())?;
     for (band, nm) in nm.iter().enumerate() {
         let values = columns.iter().map(|column| column[band].to_string());
         write(iter::once(nm.to_string()).chain(values).collect())?;
