@@ -228,6 +228,7 @@ fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {
 
 fn field_and_file(text: &str) -> std::result::Result<(String, PathBuf), String> {
     match text.split_once('=') {
+        Some((_, "-")) => Err("an array needs a file: write FIELD=FILE.npy".to_owned()),
         Some((field, file)) if !field.is_empty() && !file.is_empty() => Ok((field.to_owned(), file.into())),
         _ => Err("write FIELD=FILE.npy".to_owned()),
     }

@@ -46,6 +46,7 @@ fn geometry() {
             case("vkernel --threads -5", 2, &["'-5' for '--threads", "1..=1024"]),
             case("vkernel -5", 2, &["unexpected argument '-5'"]),
             case("vkernel --save kernel", 2, &["--save", "FIELD=FILE"]),
+            case("vkernel --save kernel=-", 2, &["--save", "an array needs a file"]),
             case("vkernel --save nothing=x.npy", 1, &["x.npy", "no record has the field", "--save"]),
             case("vkernel --save kernel=no/such/K.npy", 1, &["no/such/K.npy"]),
             case("vkernel -o no/such/folder", 1, &["no/such/folder"]),

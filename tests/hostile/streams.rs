@@ -117,6 +117,8 @@ fn streams() {
             case("sed 's/\"camera\":/\"eye\":/' good.ndjson | vestimate", 1, &["camera", "missing"]),
             case("vestimate good.ndjson --smoothness -1", 2, &["--smoothness", "0 or more"]),
             case("vestimate good.ndjson --start cc24", 2, &["--start"]),
+            case("vestimate good.ndjson --trace -", 2, &["--trace", "records", "--output FILE"]),
+            case("vestimate good.ndjson -o - --trace -", 2, &["--trace", "records", "--output FILE"]),
             case("vestimate good.ndjson --noise-sd -1", 2, &["--noise-sd", "0 or more"]),
             case("vestimate good.ndjson --exposure 0", 2, &["--exposure"]),
             case("vestimate good.ndjson --exposure loud", 2, &["--exposure", "free"]),

@@ -12,7 +12,7 @@ mod plan;
 mod settings;
 mod verdicts;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgGroup, Parser};
@@ -145,6 +145,7 @@ fn main() -> ExitCode {
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.spectra.as_deref().map_or(Ok(()), check_ending)?;
     args.join.as_ref().map_or(Ok(()), |_| join::check(args))?;
+    check_trace(args)?;
     let estimator = Estimator::new(args)?;
     let mut reader = Reader::open(&args.samples)?;
     if let Some(kernel) = args.kernel.external()? {
@@ -191,6 +192,14 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     args.spectra.as_ref().map_or(Ok(()), |path| write(path, &measured))?;
     verdicts.iter().for_each(Verdicts::say);
     drawing.as_ref().map_or(Ok(()), Drawing::write)
+}
+
+/// Refuses the iterations among the records, which readers would take for records of the stream.
+fn check_trace(args: &Args) -> Result<()> {
+    let is_stdout = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
+    let records_there = args.common.output.is_none() || is_stdout(&args.common.output);
+    let flags = [("--trace", is_stdout(&args.trace) && records_there)];
+    cli::refuse(flags, "standard output already has the records", "name a file, or give --output FILE")
 }
 
 /// Reports departures of a photograph from the ideal, facets that cannot be those of the scene, so that a
