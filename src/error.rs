@@ -269,6 +269,17 @@ impl Error {
         }
     }
 
+    /// The same error about a spectrum, or about its use, with the flag that named it.
+    #[must_use]
+    pub fn of_flag(self, flag: &'static str) -> Self {
+        match self {
+            Self::Spectrum { name, problem, remedy } => {
+                Self::usage(flag, format!("spectrum '{name}': {problem}"), remedy)
+            }
+            other => other,
+        }
+    }
+
     /// An invalid field of a record. A long problem is shortened, as it may quote a whole array.
     pub fn field(field: impl Into<String>, problem: impl Display) -> Self {
         const LETTERS: usize = 400;

@@ -21,9 +21,15 @@ impl Common {
     /// The single reflectance named by a flag.
     ///
     /// # Errors
-    /// As [`stream::reflectances`], or [`Error::Usage`] if it is a set.
+    /// As [`stream::reflectances`], or [`Error::Usage`] if it is a set or a number that is no reflectance.
     pub fn one_reflectance(&self, flag: &'static str, spec: &str) -> Result<Spectrum> {
-        one(flag, spec, self.reflectances(spec)?)
+        match spec.trim().parse::<f64>() {
+            Ok(number) if !(0.0..=1.0).contains(&number) => {
+                let problem = format!("reflectance {number} is outside 0..1");
+                Err(Error::usage(flag, problem, "give a number within, a name or a file"))
+            }
+            _ => one(flag, spec, self.reflectances(spec)?),
+        }
     }
 
     /// The radiance factors named by `spec`.

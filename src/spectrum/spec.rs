@@ -9,7 +9,7 @@ use super::names::{What, unknown};
 use super::own::{self, OwnFile};
 use super::quantities::{Sensitivities, bad, check_power, check_radiance_factor, check_reflectance};
 use super::{Spectrum, library};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::message::printable;
 use std::path::Path;
 use std::sync::Arc;
@@ -100,7 +100,7 @@ impl Specs {
     /// 0..1.
     pub fn reflectances(self, spec: &str) -> Result<Vec<Spectrum>> {
         let spectra = self.find(What::Reflectances, spec)?;
-        spectra.iter().try_for_each(check_reflectance)?;
+        spectra.iter().try_for_each(check_reflectance).map_err(|e| in_file(spec, e))?;
         Ok(spectra.into_iter().map(Spectrum::as_reflectance).collect())
     }
 
@@ -115,7 +115,7 @@ impl Specs {
         if is_large && self.percent.is_none() {
             spectra = self.find(What::Reflectances, spec)?;
         }
-        spectra.iter().try_for_each(check_radiance_factor)?;
+        spectra.iter().try_for_each(check_radiance_factor).map_err(|e| in_file(spec, e))?;
         Ok(spectra)
     }
 
@@ -130,7 +130,7 @@ impl Specs {
             let problem = format!("{} columns, but one illuminant is needed", columns.len() + 1);
             return Err(bad(spec, problem, format!("name one of them, such as {spec}:COLUMN")));
         }
-        check_power(&illuminant, 0.0)?;
+        check_power(&illuminant, 0.0).map_err(|e| in_file(spec, e))?;
         Ok(illuminant.as_power())
     }
 
@@ -140,7 +140,7 @@ impl Specs {
     /// As [`Specs::illuminant`], except that there may be several.
     pub fn illuminants(self, spec: &str) -> Result<Vec<Spectrum>> {
         let lights = self.find(What::Illuminants, spec)?;
-        lights.iter().try_for_each(|light| check_power(light, 0.0))?;
+        lights.iter().try_for_each(|light| check_power(light, 0.0)).map_err(|e| in_file(spec, e))?;
         Ok(lights.into_iter().map(Spectrum::as_power).collect())
     }
 
@@ -218,6 +218,19 @@ fn column_called(path: &str, column: Option<&str>, mut spectra: Vec<Spectrum>) -
     Ok(vec![spectra.swap_remove(at)])
 }
 
+/// The same error about a spectrum of the file in `spec`, named as a SPEC names it: `red.csv`,
+/// `red.csv:COLUMN`.
+fn in_file(spec: &str, error: Error) -> Error {
+    let (path, _) = path_and_member(spec);
+    match error {
+        Error::Spectrum { name, problem, remedy } if Path::new(path).is_file() => {
+            let column = name.split_once(':').map(|(_, column)| format!(":{column}")).unwrap_or_default();
+            Error::Spectrum { name: format!("{path}{column}"), problem, remedy }
+        }
+        other => other,
+    }
+}
+
 /// The spectrum of `red.csv` is `red` if it is the only column, else `red:COLUMN`.
 fn called_after_file(path: &str, column: Option<&str>, spectra: Vec<Spectrum>) -> Vec<Spectrum> {
     let stem = Path::new(path).file_stem().map_or(path.into(), |stem| stem.to_string_lossy());
@@ -229,7 +242,6 @@ fn called_after_file(path: &str, column: Option<&str>, spectra: Vec<Spectrum>) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Error;
     use std::fs::write;
 
     /// Runs `test` with the path of a CSV file with this text.

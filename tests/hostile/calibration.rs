@@ -120,7 +120,7 @@ END
             case("sh chart --chart-reference narrow.csv --chart-grid 1x2", 1, &["narrow:a", "500..600 nm"]),
             case("sh chart --chart-reference dark.csv --chart-grid 1x2", 1, &["dark:a", "black"]),
             case("sh card --white-reflectance cc24", 2, &["--white-reflectance", "a set"]),
-            case("sh card --white-reflectance 1.2", 1, &["1.2", "0..1"]),
+            case("sh card --white-reflectance 1.2", 2, &["--white-reflectance: ", "1.2", "0..1"]),
             case(
                 "sh marked --white-region '1,1 9,1 9,9 1,9'",
                 1,

@@ -151,7 +151,11 @@ fn light_and_camera() {
                 1,
                 &["D65", "380..780 nm"],
             ),
-            case("vforward scene.json --reflectance 0.5 --reference-panel 2", 1, &["0..1"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --reference-panel 2",
+                2,
+                &["--reference-panel: ", "0..1"],
+            ),
             case(
                 "vforward scene.json --reflectance 0.5 --reference-panel cc24",
                 2,
@@ -159,7 +163,11 @@ fn light_and_camera() {
             ),
             case("vforward scene.json --panel-reflectance 1=0.5", 2, &["--reflectance", "missing"]),
             case("vforward scene.json --reflectance 0.5 --panel-reflectance 2=0.5", 2, &["0=SPEC"]),
-            case("vforward scene.json --reflectance 0.5 --panel-reflectance 0=1.5", 1, &["0..1"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --panel-reflectance 0=1.5",
+                2,
+                &["--panel-reflectance: ", "0..1"],
+            ),
             case(
                 "vforward scene.json --reflectance 0.5 --panel-reflectance 1=cc24",
                 2,

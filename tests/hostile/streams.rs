@@ -237,3 +237,30 @@ fn assert_marked(folder: &Workdir, line: &str, says: &str) {
     let error = sample["error"].as_str().unwrap();
     assert!(error.contains(says), "{line}: {error}");
 }
+
+/// What a flag names is blamed on the flag or its file, not on the stream.
+#[test]
+fn spectra_of_flags() {
+    assert_refused(
+        &format!(
+            "{STREAM}
+            printf 'nm,a,b\\n500,0.2,0.5\\n600,0.2,0.5\\n' > narrow.csv
+            printf 'nm,a,b\\n400,-1,0.5\\n700,1,0.5\\n' > below.csv"
+        ),
+        &[
+            case("vestimate good.ndjson --start 2", 2, &["vestimate: --start: reflectance 2 is outside"]),
+            case("vestimate good.ndjson --start -1", 2, &["vestimate: --start: reflectance -1 is outside"]),
+            case("vestimate good.ndjson --reference-panel 2", 2, &["vestimate: --reference-panel: refl"]),
+            case("vestimate good.ndjson --start narrow.csv:a", 2, &["--start: spectrum 'narrow:a'", "500"]),
+            case("vestimate good.ndjson --prior narrow.csv", 2, &["--prior: spectrum 'narrow:a'", "500"]),
+            case(
+                "vestimate good.ndjson --illuminant unknown --illuminants narrow.csv",
+                2,
+                &["--illuminants: spectrum 'narrow:a'", "500"],
+            ),
+            case("vestimate good.ndjson --start below.csv:a", 1, &["vestimate: spectrum 'below.csv:a'"]),
+            case("vestimate good.ndjson --illuminants below.csv", 1, &["vestimate: spectrum 'below.csv:a'"]),
+            case("vestimate good.ndjson --illuminants no.csv", 1, &["vestimate: no.csv: No such file"]),
+        ],
+    );
+}

@@ -58,6 +58,12 @@ pub struct Estimator<'a> {
     /// The flags for every sample.
     pub asked: Asked<'a>,
     method: Method,
+    /// The reflectance of `--reference-panel`.
+    reference_panel: Option<Spectrum>,
+    /// The initial reflectance.
+    start: Option<Spectrum>,
+    /// The candidates for the light that `--illuminants` names.
+    illuminants: Option<Vec<Spectrum>>,
     /// Whether the light is to be inferred, ignoring the scenes' statements.
     forgets_light: bool,
     /// A known fold that determines the light.
@@ -120,9 +126,8 @@ impl Transform for Estimator<'_> {
         if self.forgets_light {
             scene.forget_light()?;
         }
-        if let Some(spec) = &self.asked.args.reference_panel {
-            let card = self.asked.args.common.one_reflectance("--reference-panel", spec)?;
-            let reflectance = card.on(&grid, Outside::Refuse)?;
+        if let Some(card) = &self.reference_panel {
+            let reflectance = card.on(&grid, Outside::Refuse).map_err(|e| e.of_flag("--reference-panel"))?;
             scene.set_reference_panel(&ReferencePanel::new(1, card.name(), reflectance))?;
         }
         if self.asked.args.backed {
@@ -146,12 +151,8 @@ impl Transform for Estimator<'_> {
         if !self.asked.args.common.no_history {
             scene.fields.add_history("vestimate")?;
         }
-        let start = match &self.asked.args.start {
-            Some(spec) => {
-                Some(self.asked.args.common.one_reflectance("--start", spec)?.on(&grid, Outside::Refuse)?)
-            }
-            None => None,
-        };
+        let start = self.start.as_ref().map(|start| start.on(&grid, Outside::Refuse)).transpose();
+        let start = start.map_err(|e| e.of_flag("--start"))?;
         let lit = lit.as_ref().unwrap_or(scene);
         let others = self.shared(other_lights(&lit.optics()?, lit.is_daylight_assumed()?));
         let (lights, shown) = match &self.known_fold {
@@ -213,9 +214,17 @@ impl Transform for Estimator<'_> {
 
 impl<'a> Estimator<'a> {
     /// # Errors
-    /// Flags that contradict each other, or a prior that cannot be read.
+    /// Flags that contradict each other, or spectra of flags that cannot be read.
     pub fn new(args: &'a Args) -> Result<Self> {
+        let reflectance = |flag, spec: &Option<String>| {
+            spec.as_deref().map(|spec| args.common.one_reflectance(flag, spec)).transpose()
+        };
+        let illuminants = args.illuminants.as_deref().map(|spec| args.common.illuminants(spec));
         Ok(Self {
+            // read before the samples, so that errors name the flag or its file, not the stream
+            reference_panel: reflectance("--reference-panel", &args.reference_panel)?,
+            start: reflectance("--start", &args.start)?,
+            illuminants: illuminants.transpose()?,
             asked: Asked::new(args),
             method: method(args)?,
             forgets_light: args.planning.forgets_light(args.kernel.kernel.is_some())?,
@@ -257,8 +266,8 @@ impl<'a> Estimator<'a> {
         let prior = Arc::new(match spectra {
             None => Prior::built_in(wavelengths_nm)?,
             Some((spectra, classes)) => {
-                let on_grid: Vec<_> =
-                    spectra.iter().map(|one| one.on(grid, Outside::Refuse)).collect::<Result<_>>()?;
+                let on_grid = spectra.iter().map(|one| one.on(grid, Outside::Refuse));
+                let on_grid: Vec<_> = on_grid.collect::<Result<_>>().map_err(|e| e.of_flag("--prior"))?;
                 Prior::from_spectra(wavelengths_nm, &on_grid, classes.as_deref())?
             }
         });
@@ -295,15 +304,19 @@ impl<'a> Estimator<'a> {
                 "leave --prior, --method, --join and --fit out, or state the light to vextract",
             ));
         }
-        let lights = match &self.asked.args.illuminants {
-            Some(spec) => equal_candidates(self.asked.args.common.illuminants(spec)?),
+        let all = |lights: &[_]| Candidate::all(lights, grid, &camera.sensitivities);
+        let lights = match &self.illuminants {
+            Some(spectra) => {
+                let named = all(&equal_candidates(spectra.clone()));
+                return named.map_err(|e| e.of_flag("--illuminants"));
+            }
             // a known sheet distinguishes more similar lights
             None if self.known_fold.as_ref().is_some_and(|known| !known.is_photograph()) => {
                 fine_candidate_lights()?
             }
             None => candidate_lights_and_between()?,
         };
-        Candidate::all(&lights, grid, &camera.sensitivities)
+        all(&lights)
     }
 
     /// The prior on reflectances in a scene.

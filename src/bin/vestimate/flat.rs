@@ -106,8 +106,8 @@ impl FlatEstimator {
 
     /// The method on the wavelengths of a scene, with its channels.
     pub fn context(&self, grid: &WavelengthGrid, model: &FacetModel) -> Result<FlatContext> {
-        let spectra: Vec<_> =
-            self.basis.iter().map(|spectrum| spectrum.on(grid, Outside::Refuse)).collect::<Result<_>>()?;
+        let spectra = self.basis.iter().map(|spectrum| spectrum.on(grid, Outside::Refuse));
+        let spectra: Vec<_> = spectra.collect::<Result<_>>().map_err(|e| e.of_flag("--basis"))?;
         let known = model.sources()[0].camera.channels().min(spectra.len());
         Ok(FlatContext {
             method: self.method,
