@@ -35,6 +35,7 @@ pub use donaldson::{Bispectral, Donaldson};
 pub use grid::WavelengthGrid;
 pub use interpolation::Interpolation;
 pub use library::{camera_by_exif, is_other_camera, other_measurements};
+pub use names::near_names;
 pub use quantities::Sensitivities;
 pub use spec::{camera, illuminant, reflectances};
 pub use sun::Sun;

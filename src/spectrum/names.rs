@@ -51,6 +51,29 @@ pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> V
     near.iter().take(3).map(|&(_, known)| known).collect()
 }
 
+/// Up to three of `known` that a name may mean, nearest first. Both may be compound, as `cc24:red`: a member
+/// may be meant without its set, or as one of another.
+///
+/// # Example
+/// ```
+/// use vfold::spectrum::near_names;
+/// assert_eq!(near_names("cc24:red", ["truth:rde", "truth:white"]), ["truth:rde"]);
+/// ```
+#[must_use]
+pub fn near_names<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let member = |name: &'a str| name.split_once(':').map_or(name, |(_, member)| member);
+    let all: Vec<(&str, &str)> = known.into_iter().map(|known| (member(known), known)).collect();
+    let of_members = |name: &str| nearest(name, all.iter().map(|(member, _)| *member));
+    let mut near = of_members(name);
+    if let Some((_, member)) = name.split_once(':')
+        && near.is_empty()
+    {
+        near = of_members(member);
+    }
+    let whole = |member: &&str| all.iter().find(|(known, _)| known == member).map(|(_, whole)| *whole);
+    near.iter().filter_map(whole).collect()
+}
+
 /// Levenshtein distance, ignoring case.
 fn edits(a: &str, b: &str) -> usize {
     let (a, b) = (a.to_lowercase(), b.to_lowercase());

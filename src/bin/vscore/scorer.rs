@@ -3,8 +3,9 @@
 use std::collections::HashSet;
 
 use vfold::colorimetry::{Colorimeter, ErrorBars, Observer};
+use vfold::error::counted;
 use vfold::score::{METRICS, Metric, Score};
-use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
+use vfold::spectrum::{Outside, Spectrum, WavelengthGrid, near_names};
 use vfold::stream::{EstimateRecord, ReflectanceRecord, Sample, Scene, Transform};
 use vfold::{Error, Result};
 
@@ -83,9 +84,7 @@ impl<'a> Scorer<'a> {
                     spectrum.name() == id
                         || spectrum.name().split_once(':').is_some_and(|(_, member)| member == id)
                 };
-                let found = spectra.iter().find(named).ok_or_else(|| {
-                    Error::field("id", format!("--truth has no spectrum '{id}' among its {}", spectra.len()))
-                })?;
+                let found = spectra.iter().find(named).ok_or_else(|| self.no_truth(&id, spectra))?;
                 self.measured(found, own, grid)?
             }
             (None, Some(own)) => on_grid(own, grid)?,
@@ -94,6 +93,18 @@ impl<'a> Scorer<'a> {
             (None, None) => return Err(Error::field("truth", "missing; give --truth SPEC")),
         };
         Ok(Some(truth))
+    }
+
+    /// The error for a sample that has no namesake among the spectra of `--truth`.
+    fn no_truth(&self, id: &str, spectra: &[Spectrum]) -> Error {
+        let near = match near_names(id, spectra.iter().map(Spectrum::name)).as_slice() {
+            [] => String::new(),
+            near => format!(" (nearest: {})", near.join(", ")),
+        };
+        let file = self.args.truth.as_deref().unwrap_or_default();
+        let count = counted(spectra.len(), "spectrum");
+        let problem = format!("--truth {file} has no '{id}' among its {count}{near}; rename one of them");
+        Error::field("id", problem)
     }
 
     /// A spectrum named by `--truth`: under M1 the total radiance factor, from which the reflected part
