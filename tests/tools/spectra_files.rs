@@ -363,6 +363,27 @@ fn written_tables_are_read_whatever_the_samples_are_called() {
     );
 }
 
+/// Headings by which instruments call the standard deviation of the column before them, or of all.
+#[test]
+fn columns_of_standard_deviations_are_no_spectra() {
+    check(
+        "true",
+        r#"
+        vkernel --facets 1x1 -o scene.json
+        for name in SD 'Std Dev' 'Std. Dev.' StdDev 'Standard deviation' 'red Std Dev' \
+            'red (standard error)' red_std_dev 'red SD'; do
+            printf 'nm,red,%s,white\n380,0.1,9,0.9\n780,0.1,9,0.9\n' "$name" > some.csv
+            vforward scene.json --reflectance some.csv 2>said | grep -c '"id":"some:' | grep -qx 2 ||
+                { echo "$name"; exit 1; }
+            grep -q 'standard deviations left out' said
+        done
+        printf 'nm,SD card,blue\n380,0.1,0.9\n780,0.1,0.9\n' > card.csv
+        vforward scene.json --reflectance card.csv | grep -q '"id":"card:SD card"'
+        printf 'nm,sd\n380,0.1\n780,0.1\n' > alone.csv
+        vforward scene.json --reflectance alone.csv | grep -q '"id":"alone"'"#,
+    );
+}
+
 /// XYZ that Argyll computes from the file, D50 and the 2° observer; it sums bands of 5 nm with tables of its
 /// own.
 #[test]

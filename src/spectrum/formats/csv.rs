@@ -20,6 +20,16 @@ use crate::spectrum::Spectrum;
 pub(super) const SD_ENDING: &str = "_sd";
 /// Last words of such column names, in lower case.
 const DEVIATIONS: [&str; 7] = ["sd", "std", "stdev", "stddev", "stderr", "sigma", "uncertainty"];
+/// Last but one and last words of others.
+const DEVIATIONS_OF_TWO: [[&str; 2]; 7] = [
+    ["standard", "deviation"],
+    ["standard", "error"],
+    ["standard", "uncertainty"],
+    ["std", "deviation"],
+    ["std", "dev"],
+    ["std", "error"],
+    ["st", "dev"],
+];
 
 /// Possible cell separators. The comma is last: in tables with other separators it is a decimal comma.
 const SEPARATORS: [u8; 3] = [b'\t', b';', b','];
@@ -141,18 +151,34 @@ fn rows<'a>(
     })
 }
 
-/// True if a column holds the standard deviation of another one, or of the only other one.
+/// True if a column holds the standard deviation of another one, or is called nothing else beside a spectrum.
 fn is_deviation(name: &str, known: &HashSet<&str>) -> bool {
-    deviation_of(name).is_some_and(|of| known.contains(of) || of.is_empty() && known.len() == 2)
+    deviation_of(name).is_some_and(|of| known.contains(of) || of.is_empty() && has_spectrum(known))
+}
+
+/// True if one of the columns is not called a standard deviation.
+fn has_spectrum(known: &HashSet<&str>) -> bool {
+    known.iter().any(|name| deviation_of(name).is_none())
 }
 
 /// The name of the column whose standard deviation a column of this name may hold: `red` for `red_sd`,
 /// `Red std`, `red (uncertainty)`.
 pub(super) fn deviation_of(name: &str) -> Option<&str> {
-    let name = name.trim_end_matches([')', ']']);
-    let is_end = |letter: char| !letter.is_alphanumeric();
-    let (of, word) = name.rsplit_once(is_end).unwrap_or(("", name));
-    DEVIATIONS.contains(&word.to_lowercase().as_str()).then(|| of.trim_end_matches(['(', '[', '_', '-', ' ']))
+    let name = name.trim_end_matches([')', ']', '.']);
+    let (of, word) = last_word(name);
+    let (of_two, word_before) = last_word(of.trim_end_matches(['.', ' ', '_', '-']));
+    let words = [word_before.to_lowercase(), word.to_lowercase()];
+    let of = match [words[0].as_str(), words[1].as_str()] {
+        two if DEVIATIONS_OF_TWO.contains(&two) => of_two,
+        [_, word] if DEVIATIONS.contains(&word) => of,
+        _ => return None,
+    };
+    Some(of.trim_end_matches(['(', '[', '_', '-', ' ']))
+}
+
+/// What precedes the last word of a name and the mark before it, and that word.
+fn last_word(name: &str) -> (&str, &str) {
+    name.rsplit_once(|letter: char| !letter.is_alphanumeric()).unwrap_or(("", name))
 }
 
 /// A name as a cell that neither a spreadsheet takes for a formula nor [`parse`] for a unit.
