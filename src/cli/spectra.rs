@@ -82,10 +82,13 @@ impl Common {
 
     /// Prints the notes on spectra as they were read, each once.
     fn say_notes<'a>(&self, spectra: impl IntoIterator<Item = &'a Spectrum>) {
-        for note in spectra.into_iter().filter_map(Spectrum::note).filter(|_| !self.quiet) {
-            if self.notes.is_new(note) {
-                say(&called(), note);
-            }
+        spectra.into_iter().filter_map(Spectrum::note).for_each(|note| self.say_once(&called(), note));
+    }
+
+    /// Prints a line in a tool's name, if it is new and `--quiet` allows it.
+    pub fn say_once(&self, tool: &str, line: &str) {
+        if !self.quiet && self.notes.is_new(line) {
+            say(tool, line);
         }
     }
 }

@@ -18,6 +18,8 @@ fn flags_that_do_not_fit_the_method() {
             case("vestimate flat.ndjson --method park --components 1270", 2, &["--components", "1000"]),
             case("vestimate flat.ndjson --components 3", 2, &["--components", "park or khan"]),
             case("vestimate flat.ndjson --basis cc24", 2, &["--basis", "park or khan"]),
+            case("vestimate fold.ndjson --smoothness 5", 2, &["--smoothness", "--prior smooth"]),
+            case("vestimate fold.ndjson --prior none --smoothness 5", 2, &["--smoothness", "--prior smooth"]),
             case("vestimate flat.ndjson --method park --basis cc25", 1, &["cc25", "cc24"]),
             case("vestimate flat.ndjson --method park --prior smooth", 2, &["--prior", "--method park"]),
             case("vestimate flat.ndjson --method khan --fit sky", 2, &["--fit", "--method khan"]),

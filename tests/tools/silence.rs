@@ -76,3 +76,22 @@ fn a_light_that_nobody_named_is_said() {
     assert_eq!(run.status, 0, "{run:?}");
     assert!(run.stderr.contains("daylight assumed") && run.stderr.contains("--illuminant"), "{run:?}");
 }
+
+#[test]
+fn a_flag_that_nothing_uses_is_said() {
+    let folder = Workdir::new();
+    folder.sh("echo '{\"panel0\": [[332,462],[345,77],[122,12],[104,442]], \
+        \"panel1\": [[332,462],[345,77],[485,17],[472,446]]}' > regions.json");
+    for flag in
+        ["--chart-cos 0.3", "--chart-reference cc24-babelcolor", "--white-cos 0.5", "--white-reflectance 0.9"]
+    {
+        let run = extract(&folder, PHOTO, &format!("--illuminant D65 --regions regions.json {flag}"));
+        let name = flag.split_once(' ').unwrap().0;
+        let is_said =
+            run.stderr.lines().count() == 1 && run.stderr.contains(&format!("{name} is not used: "));
+        assert!(run.status == 0 && is_said, "{flag}: {run:?}");
+    }
+    let run =
+        folder.sh("vkernel --facets 2x2 | vforward --reflectance 0.5 | vestimate --illuminants A -o out");
+    assert!(run.status == 0 && run.stderr.starts_with("vestimate: --illuminants is not used: "), "{run:?}");
+}

@@ -101,6 +101,9 @@ fn method(args: &Args) -> Result<Method> {
     if let Some(error) = args.model_error.filter(|error| !(0.0..=1.0).contains(error)) {
         return Err(Error::usage("--model-error", format!("{error} is not a relative error"), "give 0 to 1"));
     }
+    let is_surplus = args.smoothness.is_some() && args.prior() != "smooth";
+    let (problem, remedy) = (format!("not used by --prior {}", args.prior()), "give --prior smooth");
+    cli::refuse([("--smoothness", is_surplus)], &problem, remedy)?;
     Ok(match args.prior() {
         "smooth" => Method::Smooth(args.smoothness.unwrap_or(Smoothness::Weight(smooth::SMOOTHNESS))),
         "none" => Method::Smooth(Smoothness::Weight(0.0)),
@@ -139,6 +142,10 @@ impl Transform for Estimator<'_> {
         }
         let lights =
             if scene.is_light_unknown()? { self.lights_before(&scene.camera()?, &grid)? } else { Vec::new() };
+        if lights.is_empty() && self.illuminants.is_some() {
+            let line = "--illuminants is not used: the light is stated; --illuminant unknown has it found";
+            self.asked.args.common.say_once("vestimate", line);
+        }
         // the scene has the same components in any light
         let lit = if lights.is_empty() { None } else { Some(scene.in_assumed_light(&grid)?) };
         let method = match &self.method {

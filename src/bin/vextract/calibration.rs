@@ -16,6 +16,10 @@ use vfold::{Error, Result, cli};
 use super::target::{Target, View};
 use super::{facing, paper};
 
+/// The usual chart, and its rows and columns.
+const CHART: &str = "cc24";
+const CHART_GRID: (usize, usize) = (4, 6);
+
 #[derive(Args)]
 #[command(next_help_heading = "Calibration")]
 pub struct CalibrationArgs {
@@ -23,7 +27,7 @@ pub struct CalibrationArgs {
     #[arg(long, value_name = "X", conflicts_with_all = ["chart", "white_region"])]
     exposure: Option<f64>,
     /// Reflectances of the chart's patches, row by row
-    #[arg(long, value_name = "SPEC", default_value = "cc24", requires = "chart_place")]
+    #[arg(long, value_name = "SPEC", default_value = CHART, requires = "chart_place")]
     chart_reference: String,
     /// Rows and columns of patches of the chart
     #[arg(long, value_name = "ROWSxCOLS", default_value = "4x6", requires = "chart_place",
@@ -86,6 +90,22 @@ impl CalibrationArgs {
                 None => White::Paper(paper::target(self.white_cos, grid)),
             },
         })
+    }
+
+    /// Says which flags describe a card or chart that a photograph has not.
+    pub fn unused(&self, has_white: bool, has_chart: bool) -> impl Iterator<Item = String> {
+        const NO_WHITE: &str =
+            "no white region is marked, and no picture of white by --white shows the exposure";
+        const NO_CHART: &str = "no chart is marked";
+        let flags = [
+            ("--white-reflectance", self.white_reflectance.is_some() && !has_white, NO_WHITE),
+            ("--white-cos", self.white_cos < 1.0 && !has_white, NO_WHITE),
+            ("--chart-reference", self.chart_reference != CHART && !has_chart, NO_CHART),
+            ("--chart-grid", self.chart_grid != CHART_GRID && !has_chart, NO_CHART),
+            ("--chart-cos", self.chart_cos < 1.0 && !has_chart, NO_CHART),
+        ];
+        let unused = flags.into_iter().filter(|(_, is_unused, _)| *is_unused);
+        unused.map(|(flag, _, why)| format!("{flag} is not used: {why}"))
     }
 }
 

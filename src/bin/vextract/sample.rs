@@ -98,10 +98,11 @@ impl Setup<'_> {
                 };
                 cli::say("vextract", &line);
             }
-        } else if !self.calibration.is_paper() && regions.white.is_none() && !args.common.quiet {
-            let line = "--white-reflectance is not used: no white region is marked, and no picture of white \
-                        by --white shows the exposure";
-            cli::say("vextract", &format!("{}: {line}", path.display()));
+        }
+        if !args.common.quiet {
+            let has_white = paper.is_some() || regions.white.is_some();
+            let unused = args.calibration.unused(has_white, regions.chart.is_some());
+            unused.for_each(|line| cli::say("vextract", &format!("{}: {line}", path.display())));
         }
         if let Some((calibration, record)) = &calibrated {
             apply(calibration, &mut facets);
