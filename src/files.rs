@@ -12,9 +12,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub use checksum::sha256;
-use tempfile::{NamedTempFile, TempPath};
+use tempfile::NamedTempFile;
 pub(crate) use together::Together;
 pub use together::keep_complete;
+use together::{Complete, Rename};
 use unicode_normalization::UnicodeNormalization;
 
 use crate::error::{Error, Result};
@@ -112,12 +113,13 @@ impl Saved {
             return Ok(());
         }
         self.file_mut().sync_data().map_err(|e| Error::file(self.path.display(), e))?;
-        together::wait(self).map_or(Ok(()), |alone| alone.named()?.rename())
+        together::wait(Box::new(self)).map_or(Ok(()), |alone| alone.named()?())
     }
+}
 
-    /// Gives the file a temporary name beside its final one.
-    fn named(self) -> Result<Named> {
-        let Self { target, path, _claim } = self;
+impl Complete for Saved {
+    fn named(self: Box<Self>) -> Result<Rename> {
+        let Self { target, path, _claim: claim } = *self;
         let temporary = match target {
             #[cfg(target_os = "linux")]
             Target::Unnamed(file) => unnamed::temporary_name(&file, &path).map(Some),
@@ -125,21 +127,11 @@ impl Saved {
             Target::Special(_) => Ok(None),
         };
         let temporary = temporary.map_err(|e| Error::file(path.display(), e))?;
-        Ok(Named { temporary, path, _claim })
-    }
-}
-
-/// A complete file under a temporary name; none for a pipe or device.
-struct Named {
-    temporary: Option<TempPath>,
-    path: PathBuf,
-    _claim: Option<Claim>,
-}
-
-impl Named {
-    fn rename(self) -> Result<()> {
-        let renamed = self.temporary.map_or(Ok(()), |temporary| temporary.persist(&self.path));
-        renamed.map_err(|e| Error::file(self.path.display(), e.error))
+        Ok(Box::new(move || {
+            let renamed = temporary.map_or(Ok(()), |temporary| temporary.persist(&path));
+            drop(claim);
+            renamed.map_err(|e| Error::file(path.display(), e.error))
+        }))
     }
 }
 

@@ -34,7 +34,7 @@
 //!
 //! ```text
 //! report               -> scene, stream, estimate, score, plot, image, colorimetry, spectrum, files, markup
-//! cli                  -> scene, stream, spectrum, progress, message, room
+//! cli                  -> scene, stream, spectrum, progress, files, message, room
 //! measure              -> scene, stream, estimate, forward, kernel, geometry, camera, spectrum, image
 //! scene                -> stream, surfaces, estimate, forward, transport, sheet, kernel, response, image
 //! scene                -> geometry, camera, colorimetry, spectrum, plot

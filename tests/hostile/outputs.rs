@@ -58,14 +58,16 @@ fn names_of_outputs() {
 #[test]
 fn a_failing_run_changes_no_output() {
     let folder = ready();
-    let setup = "head -n 1 samples.ndjson > empty.ndjson; for file in old old.svg old.npy; do echo old > $file; \
+    let setup = "head -n 1 samples.ndjson > empty.ndjson; \
+        for file in old old.svg old.npy; do echo old > $file; \
         done; ls -A; cat old*";
     let before = sh(&folder, setup).stdout;
     for run in [
         "vestimate empty.ndjson --plot old.svg -o old",
         "vscore empty.ndjson --plot new.svg -o old",
         "vscore empty.ndjson --report new.html --save rmse=old.npy",
-        "vestimate -q samples.ndjson --save nothing=old.npy --plot old.svg --trace new -o old --spectra new.csv",
+        "vestimate -q samples.ndjson --save nothing=old.npy --plot old.svg --trace new -o old \
+            --spectra new.csv",
         "vestimate -q samples.ndjson --plot old.svg --trace old --save reflectance=old.npy > /dev/full",
         "vscore estimates.ndjson --save nothing=old.npy --report new.html --plot old.svg -o old",
         "vkernel --facets 2x2 --plot old.svg --save kernel=old.npy > /dev/full",
@@ -82,7 +84,8 @@ fn a_failing_run_changes_no_output() {
 #[test]
 fn records_that_say_why_nothing_is_drawn_are_kept() {
     let folder = ready();
-    let run = "sed 's/facet_rgb/facets/' samples.ndjson | vestimate --plot new.svg -o new || echo $?; ls new*; \
+    let run = "sed 's/facet_rgb/facets/' samples.ndjson | vestimate --plot new.svg -o new || echo $?; \
+        ls new*; \
         grep -c '\"error\"' new";
     assert_eq!(sh(&folder, run).stdout, "3\nnew\n24\n");
 }

@@ -97,10 +97,11 @@ fn output_goes_to_a_file_instead() {
 
 #[test]
 fn a_table_saves_what_its_records_would() {
-    let save =
-        "--save metrics.rmse=$n/rmse --save reflectance=$n/r --save wavelengths_nm=$n/nm --save samples=$n/n";
+    let save = "--save metrics.rmse=$n/rmse --save reflectance=$n/r --save wavelengths_nm=$n/nm \
+        --save samples=$n/n";
     let script = format!(
-        "mkdir 1 2; n=1; vscore estimates.ndjson {save} -o out; n=2; vscore estimates.ndjson {save} --table -o out
+        "mkdir 1 2; n=1; vscore estimates.ndjson {save} -o out
+        n=2; vscore estimates.ndjson {save} --table -o out
         for file in rmse r nm n; do cmp 1/$file 2/$file; done; ls 2 | wc -l"
     );
     assert_eq!(printed(&script), "4\n");
