@@ -38,7 +38,8 @@ pub(super) fn is_enough(excitation: f64) -> bool {
 /// Mean of `power` near a wavelength, or of the nearest wavebands.
 pub(super) fn power_near(nm: f64, wavelengths_nm: &DVector<f64>, power: &DVector<f64>) -> f64 {
     let squares = wavelengths_nm.map(|own_nm| ((own_nm - nm) / NEAR_SD_NM).powi(2));
-    let weights = squares.map(|square| (-0.5 * (square - squares.min())).exp());
+    let nearest = squares.min();
+    let weights = squares.map(|square| (-0.5 * (square - nearest)).exp());
     power.dot(&weights) / weights.sum()
 }
 
