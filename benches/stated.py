@@ -54,6 +54,17 @@ def of_photographs(bench, sidecar):
     return estimated(records), [in_lamp(lamp) for lamp in LAMPS]
 
 
+def of_charts(bench, sidecars, pool):
+    """Per cent by which the patches of each photograph's chart are off, its own light stated (None), D65 and each lamp."""
+    def residual(sidecar, light):
+        with TemporaryDirectory() as work:
+            records, _ = of_real(bench.tools, sidecar, Path(work), light)
+        return 100 * max(json.loads(records.splitlines()[1])["calibration"]["residual_rms"])
+    charted = [sidecar for sidecar in sidecars if "chart" in json.loads(sidecar.read_text(encoding="utf-8"))["told"]]
+    for light in [None, "D65", *LAMPS]:
+        yield light, sorted(pool.map(lambda sidecar: residual(sidecar, light), charted))
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("tools")
@@ -72,6 +83,9 @@ def main():
         print("\n| photographs in daylight, stated as | named |\n|---|---|")
         for lamp, all in zip(LAMPS, zip(*wrongly, strict=True), strict=True):
             print(f"| {lamp} | {per_cent(all)} |")
+        print("\n| charts, light stated as | least | median | most |\n|---|---|---|---|")
+        for light, off in of_charts(bench, sidecars, pool):
+            print(f"| {light or 'it is'} | {off[0]:.1f} | {statistics.median(off):.1f} | {off[-1]:.1f} |")
 
 
 if __name__ == "__main__":

@@ -22,7 +22,8 @@ made_by=$(machine "$bin/vkernel")
     echo 'Per cent of estimates whose verdict names another light as more probable than the stated one. Computed: the sheets of [lights](lights.md),'
     echo 'exposure free, in its first eight lights and in D60, LED-B2 and FL8, each stated as each of the eight; neighbouring daylights of that list count as'
     echo 'neither right nor wrong. Photographs: `../shared/train`, their daylight stated as it is, and as lamps; their threshold was fitted on these, that of'
-    echo 'computed facets follows from how many statements are assumed to be wrong.'
+    echo 'computed facets follows from how many statements are assumed to be wrong. Charts: per cent by which the patches of those of the same photographs'
+    echo 'are off, root mean square of the worst channel; from these the limit was set above which a chart contradicts light or camera.'
     echo
     python3 -B benches/stated.py "$bin" "$shared"
 } | tee "$page.new"

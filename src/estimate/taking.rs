@@ -46,9 +46,8 @@ impl fmt::Display for Stated {
 }
 
 /// Root mean square of the residuals of a chart's patches, relative to what the stated light and camera
-/// give, above which one of these is wrong. Of the photographs of `train` in daylight, through cameras that
-/// differ from the measured one as units do, charts leave at most 6.3 %, and 7.7 % where D65 is stated; where
-/// a bulb, a fluorescent lamp or an LED is, 6 to 16 %.
+/// give, above which one of these is wrong: more than charts of `train` leave in any daylight stated for
+/// theirs, through cameras that differ from the measured ones as units do (`benches/stated.sh`).
 const CHART_RESIDUAL: f64 = 0.08;
 
 /// Doubts that arise from how the photograph was taken; `chart_residual` is the root mean square of the

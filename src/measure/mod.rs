@@ -135,7 +135,8 @@ impl Setup<'_> {
 /// # Errors
 /// [`Error::Usage`] if neither the photograph nor `setup` names a camera, or corners are not those of the
 /// fold's panels; [`Error::Corners`] if they lie outside the picture; [`Error::Spectrum`] if camera or light
-/// are unknown; [`Error::Field`] if no facet is usable, or the facets are nothing like those of a fold.
+/// are unknown; [`Error::Numeric`] if the picture has other channels than the camera, or is a grey one saved
+/// as RGB; [`Error::Field`] if no facet is usable, or the facets are nothing like those of a fold.
 ///
 /// # Example
 /// ```
@@ -164,6 +165,9 @@ impl Setup<'_> {
 /// ```
 pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     let fold = setup.setting(photograph)?;
+    if let Some(problem) = photograph.unlike_camera(fold.optics()?.camera.channels.len()) {
+        return Err(Error::Numeric(problem));
+    }
     let panels: BTreeMap<_, _> = fold.fold.panels().into_iter().enumerate().collect();
     let marked: BTreeMap<_, _> = setup.corners.into_iter().enumerate().collect();
     let panels = MarkedPanels::new(&panels, &marked)?;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use vfold::image::{Photograph, Point, ReadOptions};
+use vfold::image::{Photograph, Pixel, Point, ReadOptions, write_linear};
 use vfold::measure::{Setup, sheet};
 
 use crate::common::Workdir;
@@ -54,6 +54,28 @@ fn check(file: &str, camera: Option<&str>, illuminant: Option<&str>, exposure: O
     let findings = estimate.findings.iter().map(|finding| finding.what.as_str());
     let said = told["findings"].as_array().into_iter().flatten();
     assert!(said.map(|finding| finding["what"].as_str().unwrap()).eq(findings), "{file}: {told}");
+}
+
+/// Like the tools, it refuses a picture without colours whose file has three channels.
+#[test]
+fn a_grey_picture_is_refused() {
+    let photo = Path::new(PHOTOS).join("a_ideal_magenta_50.exr");
+    let photograph = Photograph::open(&photo, &ReadOptions::default()).unwrap();
+    let (width, height) = (photograph.width(), photograph.height());
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let grey = |(x, y)| match photograph.pixel(x, y) {
+        Pixel::Light([red, ..]) => [red; 3],
+        _ => [0.0; 3],
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("grey.exr");
+    write_linear(&file, width, height, &pixels.flat_map(grey).collect::<Vec<_>>()).unwrap();
+    let camera = Some("canon-5d-mark-ii");
+    let corners = corners(&photo.with_extension("json"));
+    let setup = Setup { camera, illuminant: Some("D65"), ..Setup::new(50.0, corners).unwrap() };
+    let grey = Photograph::open(&file, &ReadOptions::default()).unwrap();
+    let error = sheet(&grey, &setup).unwrap_err().to_string();
+    assert!(error.contains("a grey picture saved as RGB"), "{error}");
 }
 
 #[test]

@@ -139,6 +139,29 @@ END
     );
 }
 
+/// Lines of lamps count in full whatever the wavebands: colours of a grey sheet are those of wavebands of
+/// 1 nm.
+#[test]
+fn lamps_have_one_colour_on_fine_and_coarse_wavebands() {
+    let colours = |light: &str, step_nm: u32| -> [f64; 2] {
+        let run = Workdir::new().sh(&format!(
+            "vkernel --facets 1x1 | vforward --reflectance 0.5 --camera canon-5d-mark-ii \
+                --illuminant {light} --wavelengths-nm 400:700:{step_nm} | tail -n 1"
+        ));
+        let sample: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+        let channel = |k: usize| sample["facet_rgb"][0][k].as_f64().unwrap();
+        [0, 2].map(|k| channel(k) / channel(1))
+    };
+    for light in ["D65", "A", "FL2", "FL7", "FL11", "FL3.10", "LED-B3"] {
+        let fine = colours(light, 1);
+        for (step_nm, limit) in [(5, 0.005), (10, 0.005), (20, 0.04)] {
+            let coarse = colours(light, step_nm);
+            let off = [0, 1].map(|k| (coarse[k] / fine[k] - 1.0).abs());
+            assert!(off.iter().all(|off| *off < limit), "{light}, {step_nm} nm: {off:?}");
+        }
+    }
+}
+
 const RESOURCES: &str =
     r#"import colour, os; print(os.path.join(os.path.dirname(colour.__file__), "io", "tests", "resources"))"#;
 

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use vfold::calibrate::Calibration;
 use vfold::cli;
-use vfold::error::counted;
 use vfold::geometry::Panel;
 use vfold::image::{
     CornersBy, FacetMeasurement, FlatField, Grid, Lens, MeasuredPanels, Photograph, measure_panels,
@@ -193,17 +192,7 @@ impl Setup<'_> {
     fn check_colours(&self, path: &Path, photograph: &Photograph) -> Result<()> {
         // none if no camera is stated and the first photograph, which would name it, is unreadable
         let Ok(camera) = self.scene.camera() else { return Ok(()) };
-        let (seen, of_camera) = (photograph.channels(), camera.channels.len());
-        let is_grey = photograph.info().is_grey;
-        if seen == of_camera && !(is_grey && seen > 1) {
-            return Ok(());
-        }
-        let kind = match (seen, is_grey) {
-            (1, _) => "a grey picture",
-            (_, true) => "a grey picture saved as RGB",
-            (_, false) => "an RGB picture",
-        };
-        let problem = format!("{kind}, but the scene's camera has {}", counted(of_camera, "channel"));
+        let Some(problem) = photograph.unlike_camera(camera.channels.len()) else { return Ok(()) };
         Err(Error::picture(path, problem, "give the camera that took it (--camera), or the original picture"))
     }
 

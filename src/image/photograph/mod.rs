@@ -34,6 +34,7 @@ use ndarray::{Array2, Array3};
 
 use self::pixels::Pixels;
 use self::sites::Sites;
+use crate::error::counted;
 use crate::{Error, Result};
 
 /// A decoded, upright photograph.
@@ -183,6 +184,28 @@ impl Photograph {
     #[must_use]
     pub fn channels(&self) -> usize {
         self.pixels.channels()
+    }
+
+    /// What is wrong with the colours of the picture, if it is to be one by a camera with this many channels.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::image::Photograph;
+    /// let photograph = Photograph::from_light(1, 1, vec![0.25, 0.5, 0.75])?;
+    /// assert_eq!(photograph.unlike_camera(3), None);
+    /// let unlike = photograph.unlike_camera(1);
+    /// assert_eq!(unlike.as_deref(), Some("an RGB picture, but the scene's camera has 1 channel"));
+    /// # Ok::<(), vfold::Error>(())
+    /// ```
+    #[must_use]
+    pub fn unlike_camera(&self, channels: usize) -> Option<String> {
+        let kind = match (self.channels(), self.info.is_grey) {
+            (1, _) if channels != 1 => "a grey picture",
+            (2.., true) => "a grey picture saved as RGB",
+            (own, _) if own != channels => "an RGB picture",
+            _ => return None,
+        };
+        Some(format!("{kind}, but the scene's camera has {}", counted(channels, "channel")))
     }
 
     /// Properties of the photograph other than its pixels.
