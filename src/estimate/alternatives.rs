@@ -43,8 +43,8 @@ impl Family for Alternatives<'_, '_> {
         self.get(alternative).ln_class_shares((), prior)
     }
 
-    fn tells_classes(&self) -> bool {
-        self.get(0).tells_classes()
+    fn channels(&self) -> usize {
+        self.get(0).channels()
     }
 
     fn peak(&self) -> f64 {

@@ -55,6 +55,46 @@ pub struct Estimate {
 const STATED_LIGHT_AND_CAMERA: f64 = 0.02;
 
 impl Estimate {
+    /// A spectrum and its exposure alone, with what they leave of the facets, [`Self::residual_rms`] and
+    /// [`Self::unexplained`], and how the solver ended: all that a method without an error model gives.
+    #[must_use]
+    pub fn of(
+        reflectance: Vec<f64>,
+        exposure: f64,
+        (residual_rms, unexplained): (f64, f64),
+        (iterations, termination): (u32, Termination),
+    ) -> Self {
+        Self {
+            reflectance,
+            albedo: None,
+            spread: None,
+            exposure,
+            fitted: Vec::new(),
+            findings: Vec::new(),
+            skipped: Vec::new(),
+            residual_rms,
+            unexplained,
+            day: None,
+            fluorescence: None,
+            light: None,
+            without_bounces: 0.0,
+            iterations,
+            trace: Vec::new(),
+            termination,
+        }
+    }
+
+    /// The same, as a search with this trace gives it.
+    pub(super) fn searched(
+        reflectance: Vec<f64>,
+        exposure: f64,
+        left: (f64, f64),
+        (trace, termination): (Vec<Vec<Iteration>>, Termination),
+    ) -> Self {
+        let iterations = trace.iter().map(Vec::len).sum::<usize>() as u32;
+        Self { trace, ..Self::of(reflectance, exposure, left, (iterations, termination)) }
+    }
+
     /// The same with error bars that include the errors of the stated light and camera.
     #[must_use]
     pub fn in_stated_light(mut self, wavelengths_nm: &[f64]) -> Self {

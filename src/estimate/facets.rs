@@ -5,9 +5,7 @@ use std::ops::AddAssign;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::{
-    Curvature, FacetData, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives, TELLING_CHANNELS,
-};
+use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives};
 use super::emission::{Emission, Fall, Sent};
 use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
@@ -205,8 +203,8 @@ impl Family for FacetData<'_> {
         }
     }
 
-    fn tells_classes(&self) -> bool {
-        self.channels() >= TELLING_CHANNELS
+    fn channels(&self) -> usize {
+        self.channels()
     }
 
     fn peak(&self) -> f64 {

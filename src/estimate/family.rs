@@ -24,6 +24,10 @@ pub trait SpectrumModel: Model {
     fn ln_whitening(&self) -> f64;
 }
 
+/// Number of channels that distinguish classes of spectra, lights, and light that the sheet itself emits: fewer
+/// have several modes, none of which need be that of most evidence.
+pub const TELLING_CHANNELS: usize = 3;
+
 /// The models of some data.
 pub trait Family {
     /// The assumptions of a model.
@@ -42,8 +46,13 @@ pub trait Family {
     /// it depends on the class.
     fn ln_class_shares(&self, hypothesis: Self::Hypothesis, prior: &Prior) -> Vec<f64>;
 
+    /// Number of channels, counted over all lights.
+    fn channels(&self) -> usize;
+
     /// True if there are enough channels to distinguish classes.
-    fn tells_classes(&self) -> bool;
+    fn tells_classes(&self) -> bool {
+        self.channels() >= TELLING_CHANNELS
+    }
 
     /// The brightest datum, in units of its noise.
     fn peak(&self) -> f64;

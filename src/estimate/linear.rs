@@ -12,7 +12,7 @@ use super::family::{Family, SpectrumModel};
 use super::gaussian::Gaussian;
 use super::prior::{Class, Prior, ROUGHNESSES, SCALES};
 use crate::solve::Eigen;
-use crate::solve::dense::{cholesky, dot_products, product, transposed_product};
+use crate::solve::dense::{cholesky, dot_products, product, stacked, transposed_product};
 use crate::solve::posterior::{Linearised, Model};
 
 /// Widths at which every class is weighed. Only classes whose log evidence is this close to the best are
@@ -410,7 +410,7 @@ impl<H: Copy> Candidate<H> {
         let mut information = basis.tr_mul(basis);
         (0..information.nrows()).for_each(|i| information[(i, i)] += NEARLY.powi(2));
         let spectrum = cholesky(information)?.solve(&basis.tr_mul(&(&linear.logit - own.mean())));
-        Some(joined(&spectrum, &linear.others))
+        Some(stacked(&spectrum, &linear.others))
     }
 
     /// The mode of the linear model under a Gaussian of spectra.
@@ -424,14 +424,10 @@ impl<H: Copy> Candidate<H> {
         let spectrum =
             spread.tr_mul(&factor.solve(&(&linear.informed.off + linear.informed.values.tr_mul(&away))));
         let left = &linear.residuals + &linear.by_logit * (away - own.basis() * &spectrum);
-        let w = joined(&spectrum, &linear.of_others.solve(&linear.by_others.tr_mul(&left)));
+        let w = stacked(&spectrum, &linear.of_others.solve(&linear.by_others.tr_mul(&left)));
         let ln_determinant = factor.ln_determinant() + linear.ln_determinant;
         Some(LinearMode { ln_evidence_of_fit: self.ln_share - 0.5 * (w.norm_squared() + ln_determinant), w })
     }
-}
-
-fn joined(spectrum: &DVector<f64>, others: &DVector<f64>) -> DVector<f64> {
-    DVector::from_iterator(spectrum.len() + others.len(), spectrum.iter().chain(others).copied())
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! stated what to fit, or real sheets are not modelled in the scene.
 
 use std::slice;
+use std::sync::Arc;
 
 use super::data::FacetData;
 use super::fluorescence::Fluorescence;
@@ -34,29 +35,26 @@ pub const CUTOFF: f64 = 1e-2;
 /// one. Users seldom join the wrong photographs, and errors in the stated light make one sheet look like two.
 const LN_SEVERAL: f64 = 9.2;
 
-/// A scene, and prior knowledge of the sheets in it.
-#[derive(Clone, Copy)]
-pub struct Inference<'a> {
-    /// The scene as stated, with the parameters to fit.
-    pub model: &'a SceneModel,
+/// A scene as stated, with everything that the estimates of its sheets have in common.
+pub struct Inference {
+    /// The scene, with the parameters to fit.
+    pub model: SceneModel,
     /// Its wavelengths, nm.
-    pub wavelengths_nm: &'a [f64],
-    /// The prior on reflectances.
-    pub prior: &'a Prior,
+    pub wavelengths_nm: Vec<f64>,
     /// The initial reflectance, if one is given: one number per wavelength.
-    pub start: Option<&'a [f64]>,
+    pub start: Option<Vec<f64>>,
     /// True if a photograph decides for itself what is fitted.
     pub is_auto: bool,
     /// The stated light and camera.
-    pub stated: &'a Stated,
+    pub stated: Stated,
     /// Candidates for an unknown light; empty if it is known.
-    pub lights: &'a [Candidate],
+    pub lights: Vec<Candidate>,
     /// Alternatives to the stated light; `None` if none was stated, or several.
-    pub other_lights: Option<&'a Others>,
+    pub other_lights: Option<Arc<Others>>,
     /// Alternatives to the stated camera; `None` if there can be none.
-    pub other_cameras: Option<&'a OtherCameras>,
+    pub other_cameras: Option<OtherCameras>,
     /// Light and exposure inferred from a fold of a known sheet, if there is one.
-    pub shown: Option<&'a Shown>,
+    pub shown: Option<Shown>,
     /// The facet grid of a panel, if the surface is a fold.
     pub panel: Option<FacetGrid>,
 }
@@ -101,7 +99,7 @@ pub struct Measurement {
     pub unmodelled: Option<Unmodelled>,
 }
 
-impl<'a> Inference<'a> {
+impl Inference {
     /// The facets of a sheet as data of the scene.
     ///
     /// # Errors
@@ -111,31 +109,32 @@ impl<'a> Inference<'a> {
         measured: &Measured,
         exposure: Exposure,
         is_photograph: bool,
-    ) -> Result<FacetData<'a>> {
+    ) -> Result<FacetData<'_>> {
         let exposure = if is_photograph {
             exposure.of_photograph()
         } else {
-            exposure.or_expected(self.shown.and_then(|shown| shown.exposure))
+            exposure.or_expected(self.shown.as_ref().and_then(|shown| shown.exposure))
         };
-        let data = FacetData::new(self.model, measured, exposure, CUTOFF)?;
+        let data = FacetData::new(&self.model, measured, exposure, CUTOFF)?;
         // other effects in a photograph look like fluorescence
         Ok(if is_photograph { data.without_fluorescence() } else { data })
     }
 
-    /// The spectrum of a sheet, by the method that suits its facets, and a verdict.
+    /// The spectrum of a sheet under a prior, by the method that suits its facets, and a verdict.
     ///
     /// # Arguments
     /// - `data`: the same facets, as returned by [`Inference::data`].
     ///
     /// # Errors
     /// [`Error::Numeric`] if the facets are not finite.
-    pub fn measure(&self, facets: &Facets, data: &FacetData) -> Result<Measurement> {
-        let ideal = || match self.lights {
-            [] => map::estimate(data, self.prior, self.start),
-            lights => light::estimate(data, lights, self.prior, self.start),
+    pub fn measure(&self, facets: &Facets, data: &FacetData, prior: &Prior) -> Result<Measurement> {
+        let start = self.start.as_deref();
+        let ideal = || match self.lights.as_slice() {
+            [] => map::estimate(data, prior, start),
+            lights => light::estimate(data, lights, prior, start),
         };
         let Some(photograph) = facets.photograph else {
-            return self.of_computed(facets, data);
+            return self.of_computed(facets, data, prior);
         };
         let mut doubts: Vec<Doubt> = self.doubt_of_known().into_iter().collect();
         doubts.extend(self.doubts_of_taking(photograph));
@@ -144,9 +143,9 @@ impl<'a> Inference<'a> {
             Some(Ok(parts)) if self.is_auto => {
                 let estimate = light::estimate_photograph(
                     parts,
-                    self.lights,
-                    self.shown.and_then(|shown| shown.scenarios.as_ref()),
-                    self.prior,
+                    &self.lights,
+                    self.shown.as_ref().and_then(|shown| shown.scenarios.as_ref()),
+                    prior,
                 )?;
                 return Ok(self.judged(facets, estimate, doubts));
             }
@@ -157,22 +156,22 @@ impl<'a> Inference<'a> {
             }
             Some(_) | None => return Ok(self.judged(facets, ideal()?, doubts)),
         };
-        let shown = self.shown.and_then(|shown| shown.daylight);
+        let shown = self.shown.as_ref().and_then(|shown| shown.daylight);
         let lit = shown.map(|shown| Parts {
             stated: StatedScene { shown: Some(shown), ..parts.stated },
             ..parts.clone()
         });
         let Weighed { modes, folds } =
-            photograph::weigh(slice::from_ref(lit.as_ref().unwrap_or(parts)), self.prior)?;
+            photograph::weigh(slice::from_ref(lit.as_ref().unwrap_or(parts)), prior)?;
         let is_named = photograph.making.taken_by != Default::default();
-        let cameras = self.other_cameras.filter(|_| !is_named || parts.eye.is_stand_in);
+        let cameras = self.other_cameras.as_ref().filter(|_| !is_named || parts.eye.is_stand_in);
         // three searches that all start from the modes
         let (sheet, (light, camera)) = rayon::join(
-            || modes.estimate(folds, self.prior),
+            || modes.estimate(folds, prior),
             || {
                 rayon::join(
-                    || light::rival_in_photograph(parts, &modes, self.other_lights?, self.prior),
-                    || rival_camera(parts, &modes, cameras?, self.prior),
+                    || light::rival_in_photograph(parts, &modes, self.other_lights.as_deref()?, prior),
+                    || rival_camera(parts, &modes, cameras?, prior),
                 )
             },
         );
@@ -190,10 +189,11 @@ impl<'a> Inference<'a> {
     }
 
     /// The spectrum of a sheet from computed facets.
-    fn of_computed(&self, facets: &Facets, data: &FacetData) -> Result<Measurement> {
-        let (estimate, rival) = match self.lights {
-            [] => map::estimate_in_stated_light(data, self.prior, self.start, self.other_lights)?,
-            lights => (light::estimate(data, lights, self.prior, self.start)?, None),
+    fn of_computed(&self, facets: &Facets, data: &FacetData, prior: &Prior) -> Result<Measurement> {
+        let start = self.start.as_deref();
+        let (estimate, rival) = match self.lights.as_slice() {
+            [] => map::estimate_in_stated_light(data, prior, start, self.other_lights.as_deref())?,
+            lights => (light::estimate(data, lights, prior, start)?, None),
         };
         let doubts = self.doubt_of_known().or_else(|| self.doubt_of_light(rival)).into_iter();
         let doubts = doubts.chain(beyond_chance(&estimate, data.size().1)).collect();
@@ -213,13 +213,13 @@ impl<'a> Inference<'a> {
     fn doubts_of_taking(&self, photograph: &Photographed) -> Vec<Doubt> {
         let of_shadows = photograph.shadows.iter().map(Shadow::doubt);
         let of_taking =
-            self.panel.map(|_| doubts_of_taking(self.stated, &photograph.making, photograph.chart_residual));
+            self.panel.map(|_| doubts_of_taking(&self.stated, &photograph.making, photograph.chart_residual));
         of_shadows.chain(of_taking.into_iter().flatten()).collect()
     }
 
     /// The doubt that a known fold casts on the stated light.
     fn doubt_of_known(&self) -> Option<Doubt> {
-        self.shown?.doubt(self.stated.lights.first().map(String::as_str))
+        self.shown.as_ref()?.doubt(self.stated.lights.first().map(String::as_str))
     }
 
     /// The doubt that a more probable light casts on the stated one.
@@ -231,7 +231,7 @@ impl<'a> Inference<'a> {
     fn judged(&self, facets: &Facets, mut estimate: Estimate, mut doubts: Vec<Doubt>) -> Measurement {
         if let Some(photograph) = facets.photograph {
             doubts.extend(self.doubts_of_facets(facets, photograph, &estimate));
-            estimate = estimate.in_stated_light(self.wavelengths_nm);
+            estimate = estimate.in_stated_light(&self.wavelengths_nm);
             estimate.findings.retain(|finding| !finding.is_unusual);
         }
         doubts.extend(estimate.fluorescence.as_ref().and_then(Fluorescence::doubt));
@@ -240,7 +240,7 @@ impl<'a> Inference<'a> {
         if let Some(sentence) = sentence.filter(|sentence| !verdict.because.contains(sentence)) {
             verdict.because = format!("{}; {sentence}", verdict.because);
         }
-        Measurement { wavelengths_nm: self.wavelengths_nm.to_vec(), estimate, verdict, unmodelled: None }
+        Measurement { wavelengths_nm: self.wavelengths_nm.clone(), estimate, verdict, unmodelled: None }
     }
 
     /// Doubts that the facets of a photograph cast on its estimate.
@@ -258,7 +258,7 @@ impl<'a> Inference<'a> {
                 one.map(|one| one.value)
             };
             let model = self.model.with_fitted(found);
-            let light = estimate.light.as_ref().and_then(|light| light.most_probable(self.lights));
+            let light = estimate.light.as_ref().and_then(|light| light.most_probable(&self.lights));
             let ideal = match light {
                 Some(light) => model.in_light(&light.camera).facet_rgb(&estimate.reflectance),
                 None => model.facet_rgb(&estimate.reflectance),

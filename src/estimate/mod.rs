@@ -42,5 +42,6 @@ pub mod verdict;
 
 pub use estimated::Estimate;
 pub use exposure::Exposure;
+pub use family::TELLING_CHANNELS;
 pub use unknowns::Fitted;
 pub use verdict::WRONG_CHI;

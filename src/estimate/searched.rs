@@ -67,24 +67,14 @@ impl<'a> Searched<'a> {
             sd: sd(last),
             supported: sd(last) < EXPOSURE_SUPPORTED * exposure,
         });
+        // weights of a mean may add up to slightly more than 1 by rounding
+        let reflectance = found.values[..bands].iter().map(|r| r.min(1.0)).collect();
+        let left = (found.best.rms, data.unexplained(&found.best.at.residuals));
         Estimate {
-            albedo: None,
-            // weights of a mean may add up to slightly more than 1 by rounding
-            reflectance: found.values[..bands].iter().map(|r| r.min(1.0)).collect(),
             fitted: of_exposure.into_iter().chain(of_unknowns).collect(),
-            findings: Vec::new(),
-            skipped: Vec::new(),
             spread: off.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
-            exposure,
-            residual_rms: found.best.rms,
-            unexplained: data.unexplained(&found.best.at.residuals),
-            day: None,
             fluorescence: self.fluorescence(last + 1),
-            light: None,
-            without_bounces: 0.0,
-            iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,
-            trace,
-            termination: found.best.termination,
+            ..Estimate::searched(reflectance, exposure, left, (trace, found.best.termination))
         }
     }
 

@@ -9,7 +9,6 @@ use nalgebra::{DMatrix, DVector};
 
 use super::measured::Measured;
 use super::verdict::Doubt;
-use crate::forward::FacetValues;
 use crate::geometry::FacetGrid;
 
 /// Facets darker than the rest by this (natural logarithm) are in a shadow: the smallest value that finds
@@ -76,12 +75,6 @@ impl Shadow {
             (squares(grid, own) >= SQUARES).then_some(Self { panel, facets })
         };
         [0, 1].into_iter().filter_map(on_panel).collect()
-    }
-
-    /// The facets without those in shadows.
-    #[must_use]
-    pub fn left_out(shadows: &[Self], rgb: &FacetValues) -> FacetValues {
-        rgb.without(shadows.iter().flat_map(|shadow| shadow.facets.iter().copied()))
     }
 
     /// The doubt that it casts on an estimate: the light from its facets to others is unknown.

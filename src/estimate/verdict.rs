@@ -190,16 +190,11 @@ fn far_off(estimate: &Estimate) -> Option<Doubt> {
     })
 }
 
-/// Standard deviation of the reflectance, averaged over all wavebands, if the facets leave too much open.
-fn too_open(estimate: &Estimate) -> Option<f64> {
-    let sd = estimate.reflectance_sd()?;
-    let mean = sd.iter().sum::<f64>() / sd.len() as f64;
-    (mean > OPEN).then_some(mean)
-}
-
 /// A spectrum that the facets hardly determine.
 fn open(estimate: &Estimate) -> Option<Doubt> {
-    too_open(estimate).map(|mean| {
+    let sd = estimate.reflectance_sd()?;
+    let mean = sd.iter().sum::<f64>() / sd.len() as f64;
+    (mean > OPEN).then(|| {
         Doubt::new(
             format!(
                 "the facets fix the reflectance only to ± {:.2} on average (two standard deviations)",
@@ -226,24 +221,9 @@ mod tests {
     use crate::solve::Termination;
 
     fn estimate(residual_rms: f64, sd: f64) -> Estimate {
-        Estimate {
-            reflectance: vec![0.5; 4],
-            albedo: None,
-            spread: Some(DMatrix::from_diagonal_element(4, 4, sd)),
-            exposure: 1.0,
-            fitted: Vec::new(),
-            findings: Vec::new(),
-            skipped: Vec::new(),
-            residual_rms,
-            unexplained: 0.0,
-            day: None,
-            fluorescence: None,
-            light: None,
-            without_bounces: 0.0,
-            iterations: 1,
-            trace: Vec::new(),
-            termination: Termination::IterationLimit,
-        }
+        let spread = Some(DMatrix::from_diagonal_element(4, 4, sd));
+        let ended = (1, Termination::IterationLimit);
+        Estimate { spread, ..Estimate::of(vec![0.5; 4], 1.0, (residual_rms, 0.0), ended) }
     }
 
     #[test]

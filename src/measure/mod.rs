@@ -4,6 +4,7 @@ mod camera;
 mod light;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 pub use camera::{Camera, camera_of};
 pub use light::{LightTaken, light_of};
@@ -16,7 +17,6 @@ use crate::estimate::measured::Measured;
 use crate::estimate::measurement::{Facets, Inference, Measurement, Photographed};
 use crate::estimate::noise::{Noise, NoiseSource};
 use crate::estimate::prior::Prior;
-use crate::estimate::shadow::Shadow;
 use crate::estimate::unknowns::SceneModel;
 use crate::estimate::verdict::refuse_unexplained;
 use crate::forward::FacetValues;
@@ -181,10 +181,9 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         source: NoiseSource::OfFacets(values(&facets, |facet| facet.standard_error.clone())?),
         model_error: Noise::model_error(true),
     };
-    let model = SceneModel::known(fold.model()?);
-    let sd = noise.deviations(model.facets(), &rgb)?;
-    let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
-    let rgb = Shadow::left_out(&shadows, &rgb);
+    let model = fold.model()?;
+    let sd = noise.deviations(&model, &rgb)?;
+    let (rgb, shadows) = fold.out_of_shadows(&rgb, &sd);
     let measured = &Measured { rgb: &rgb, sd: &sd };
     let picture = Picture {
         measured,
@@ -213,25 +212,23 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
     };
     let lights = setup.lights(photograph, fold.optics()?)?;
     let stated = stated(fold.optics()?, fold.is_daylight_assumed);
-    let others = other_lights(fold.optics()?, fold.is_daylight_assumed);
-    let cameras = other_cameras(fold.optics()?);
+    let wavelengths_nm = setup.wavelengths.wavelengths_nm();
     let inference = Inference {
-        model: &model,
-        wavelengths_nm: setup.wavelengths.wavelengths_nm(),
-        prior: &Prior::built_in(setup.wavelengths.wavelengths_nm())?,
+        model: SceneModel::known(model),
+        wavelengths_nm: wavelengths_nm.to_vec(),
         start: None,
         is_auto: true,
-        stated: &if lights.is_empty() { stated } else { stated.but_light() },
-        lights: &lights,
-        other_lights: others.as_ref(),
-        other_cameras: cameras.as_ref(),
+        stated: if lights.is_empty() { stated } else { stated.but_light() },
+        lights,
+        other_lights: other_lights(fold.optics()?, fold.is_daylight_assumed).map(Arc::new),
+        other_cameras: other_cameras(fold.optics()?),
         shown: None,
         panel: Some(fold.fold.facets()),
     };
     let exposure = setup.exposure.map_or(Exposure::Free, Exposure::Known);
     let data = inference.data(measured, exposure, true)?;
     let facets = Facets { measured, exposure, photograph: Some(&taken) };
-    let measurement = inference.measure(&facets, &data)?;
+    let measurement = inference.measure(&facets, &data, &Prior::built_in(wavelengths_nm)?)?;
     refuse_unexplained(&measurement.estimate, || Ok(1.0))?;
     Ok(measurement)
 }

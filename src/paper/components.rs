@@ -7,7 +7,7 @@ use argmin::core::{CostFunction, Error as SolverError, Executor, Gradient, Hessi
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::interior_point::InteriorPoint;
-use super::smooth::{ITERATION_LIMIT, second_difference_gram, termination};
+use super::smooth::{ITERATION_LIMIT, ended, second_difference_gram};
 use crate::error::{Error, Result, counted};
 use crate::estimate::measured::{Measured, usable_facets};
 use crate::estimate::{Estimate, Exposure};
@@ -144,24 +144,11 @@ pub fn estimate(components: &Components, sheet: &FlatSheet, smoothness: f64) -> 
     let reflectance = &space.spectra * point;
     let residuals = DVector::from_column_slice(&sheet.values) - exposure * &sheet.view * &reflectance;
     let scale = sheet.exposure.map_or(OPEN_PEAK / reflectance.max(), |_| 1.0);
-    Ok(Estimate {
-        albedo: None,
-        reflectance: (scale * reflectance).as_slice().to_vec(),
-        spread: None,
-        exposure: exposure / scale,
-        fitted: Vec::new(),
-        findings: Vec::new(),
-        skipped: Vec::new(),
-        residual_rms: residuals.norm() / (residuals.len() as f64).sqrt(),
-        unexplained: residuals.norm() / DVector::from_column_slice(&sheet.values).norm(),
-        day: None,
-        fluorescence: None,
-        light: None,
-        without_bounces: 0.0,
-        iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),
-        trace: Vec::new(),
-        termination: termination(state, run.solver()),
-    })
+    let norm = residuals.norm();
+    let left =
+        (norm / (residuals.len() as f64).sqrt(), norm / DVector::from_column_slice(&sheet.values).norm());
+    let reflectance = (scale * reflectance).as_slice().to_vec();
+    Ok(Estimate::of(reflectance, exposure / scale, left, ended(state, run.solver())))
 }
 
 /// Combinations of components, in coordinates in which `|ρ/e − Pr|² + α|Dr|²` is a squared distance: the

@@ -44,24 +44,8 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
     let state = run.state();
     let reflectance: Vec<f64> = state.get_best_param().map(|r| r.as_slice().to_vec()).unwrap_or_default();
     let at = data.residuals(&reflectance, &[]);
-    Ok(Estimate {
-        albedo: None,
-        spread: None,
-        fitted: Vec::new(),
-        findings: Vec::new(),
-        skipped: Vec::new(),
-        trace: Vec::new(),
-        exposure: at.exposure,
-        residual_rms: data.rms(&at.residuals),
-        unexplained: data.unexplained(&at.residuals),
-        day: None,
-        fluorescence: None,
-        light: None,
-        without_bounces: 0.0,
-        iterations: u32::try_from(state.get_iter()).unwrap_or(u32::MAX),
-        termination: termination(state, run.solver()),
-        reflectance,
-    })
+    let left = (data.rms(&at.residuals), data.unexplained(&at.residuals));
+    Ok(Estimate::of(reflectance, at.exposure, left, ended(state, run.solver())))
 }
 
 /// The estimate with the largest smoothness whose residuals do not exceed the noise, with standard deviation
@@ -87,16 +71,17 @@ pub fn estimate_by_discrepancy(data: &FacetData, noise_sd: f64, start: &[f64]) -
     Ok(best)
 }
 
-/// Reason why a run stopped.
-pub(super) fn termination(state: &interior_point::State, solver: &InteriorPoint) -> Termination {
+/// Number of iterations of a run, and why it stopped.
+pub(super) fn ended(state: &interior_point::State, solver: &InteriorPoint) -> (u32, Termination) {
     let gradient_norm = solver.violation();
-    match state.get_termination_status() {
+    let termination = match state.get_termination_status() {
         TerminationStatus::Terminated(TerminationReason::SolverConverged) => {
             Termination::Converged { gradient_norm }
         }
         TerminationStatus::Terminated(TerminationReason::MaxItersReached) => Termination::IterationLimit,
         _ => Termination::NoProgress { gradient_norm },
-    }
+    };
+    (u32::try_from(state.get_iter()).unwrap_or(u32::MAX), termination)
 }
 
 /// `DᵀD` of the second differences D.

@@ -2,19 +2,17 @@
 
 use super::{FoldSetting, PhotographedFold, Picture};
 use crate::error::Result;
-use crate::estimate::Exposure;
 use crate::estimate::light::Others;
 use crate::estimate::measured::Measured;
 use crate::estimate::measurement::Photographed;
 use crate::estimate::other_camera::OtherCameras;
 use crate::estimate::shadow::Shadow;
 use crate::estimate::taking::Stated;
+use crate::estimate::{Exposure, TELLING_CHANNELS};
+use crate::forward::FacetValues;
 use crate::image::Making;
 use crate::spectrum::have_one_peak;
 use crate::stream::{Optics, Sample};
-
-/// With fewer channels, lights cannot be distinguished.
-const COLOURS: usize = 3;
 
 /// The stated light and camera; `is_daylight_assumed` marks daylight that nobody stated.
 #[must_use]
@@ -36,7 +34,8 @@ pub fn other_lights(
     is_daylight_assumed: bool,
 ) -> Option<Others> {
     let is_stated = illuminants.len() == 1 && sky.is_none() && !is_daylight_assumed;
-    (is_stated && camera.sensitivities.len() >= COLOURS).then(|| Others::before(grid, &camera.sensitivities))
+    (is_stated && camera.sensitivities.len() >= TELLING_CHANNELS)
+        .then(|| Others::before(grid, &camera.sensitivities))
 }
 
 /// Alternatives to the camera of a scene, if it has three channels.
@@ -71,9 +70,10 @@ pub fn photographed(
 }
 
 impl FoldSetting {
-    /// Shadows on its panels.
+    /// The facets that are in no shadow, and the shadows on its panels.
     #[must_use]
-    pub fn shadows(&self, measured: &Measured) -> Vec<Shadow> {
-        Shadow::all(self.fold.facets(), measured)
+    pub fn out_of_shadows(&self, rgb: &FacetValues, sd: &FacetValues) -> (FacetValues, Vec<Shadow>) {
+        let shadows = Shadow::all(self.fold.facets(), &Measured { rgb, sd });
+        (rgb.without(shadows.iter().flat_map(|shadow| shadow.facets.iter().copied())), shadows)
     }
 }

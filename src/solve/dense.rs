@@ -4,12 +4,24 @@
 use std::ops::Range;
 use std::slice::ChunksExact;
 
-use nalgebra::{Cholesky, DMatrix, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use pulp::{Arch, Simd, WithSimd};
 
 /// Adds a multiple of other values.
 pub fn add(sum: &mut [f64], share: f64, values: &[f64]) {
     Arch::new().dispatch(|| sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += share * value));
+}
+
+/// One vector above another.
+#[must_use]
+pub fn stacked(above: &DVector<f64>, below: &DVector<f64>) -> DVector<f64> {
+    DVector::from_iterator(above.len() + below.len(), above.iter().chain(below).copied())
+}
+
+/// Root mean square of values.
+#[must_use]
+pub fn rms(values: &DVector<f64>) -> f64 {
+    (values.norm_squared() / values.len() as f64).sqrt()
 }
 
 /// Columns as slices, which compile to faster loops than matrices.

@@ -45,7 +45,7 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
     let parts = [parts];
     let prior = Prior::built_in(wavelengths_nm).unwrap();
     let kinds = SheetModels::of(&parts).remove(0);
-    let whitening = ModelError::of(parts[0].stated.priors, Day::Clear)
+    let whitening = ModelError::of(parts[0].stated.priors, Day::Clear, 1.0)
         .whitening(&parts[0].places, &parts[0].values, &parts[0].sd)
         .unwrap();
     let ideal =

@@ -1,36 +1,37 @@
 //! Estimates of the samples of a stream.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use vfold::cli;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::light::{Candidate, Others};
 use vfold::estimate::measured::Measured;
-use vfold::estimate::measurement::{Facets, Measurement};
+use vfold::estimate::measurement::{Facets, Inference, Measurement};
 use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::photograph::Unmodelled;
 use vfold::estimate::prior::Prior;
-use vfold::estimate::shadow::Shadow;
 use vfold::estimate::unknowns::{AUTO, EXPOSURE, NONE};
 use vfold::estimate::verdict::{Verdict, refuse_unexplained};
 use vfold::estimate::{Estimate, Exposure, classes, map};
 use vfold::forward::FacetValues;
 use vfold::paper::components::FlatSheet;
 use vfold::paper::smooth;
-use vfold::scene::{Setting, other_lights, photographed};
+use vfold::scene::{Setting, other_cameras, other_lights, photographed, stated};
 use vfold::spectrum::{
     Outside, Spectrum, WavelengthGrid, candidate_lights_and_between, equal_candidates, fine_candidate_lights,
 };
 use vfold::stream::{
-    CameraRecord, EstimateRecord, Fields, NewEstimate, ReferencePanel, Sample, Scene, Transform, trace,
+    CameraRecord, EstimateRecord, Fields, NewEstimate, Optics, ReferencePanel, Sample, Scene, Transform,
+    trace,
 };
 use vfold::{Error, Result};
 
 use super::Args;
 use super::asked::Asked;
-use super::context::{Context, SceneMethod};
+use super::context::{Context, SceneMethod, fold_of};
 use super::flat::FlatEstimator;
 use super::known_fold::KnownFold;
+use super::latest::Latest;
 use super::messages::{self, Deviations};
 use super::settings::{MUNSELL, SHEETS, Smoothness};
 
@@ -68,10 +69,10 @@ pub struct Estimator<'a> {
     forgets_light: bool,
     /// A known fold that determines the light.
     known_fold: Option<KnownFold>,
-    /// The prior of the previous scene, with its wavelengths, nm.
-    last_prior: Mutex<Option<(Vec<f64>, Arc<Prior>)>>,
-    /// The alternatives to the light of the previous scene.
-    last_others: Mutex<Option<Arc<Others>>>,
+    /// The prior on these wavelengths.
+    prior: Latest<WavelengthGrid, Arc<Prior>>,
+    /// The alternatives to a stated light, on these wavelengths for these sensitivities of the camera.
+    other_lights: Latest<(WavelengthGrid, Vec<Vec<f64>>), Arc<Others>>,
 }
 
 /// The paper's estimator fits no unknown of the scene other than the exposure.
@@ -161,12 +162,28 @@ impl Transform for Estimator<'_> {
         let start = self.start.as_ref().map(|start| start.on(&grid, Outside::Refuse)).transpose();
         let start = start.map_err(|e| e.of_flag("--start"))?;
         let lit = lit.as_ref().unwrap_or(scene);
-        let others = self.shared(other_lights(&lit.optics()?, lit.is_daylight_assumed()?));
+        let (optics, is_daylight_assumed) = (lit.optics()?, lit.is_daylight_assumed()?);
+        let other_lights = self.other_lights(&optics, is_daylight_assumed)?;
         let (lights, shown) = match &self.known_fold {
-            Some(known) => known.shown(&self.asked, (lit, &method), (lights, others.as_deref()))?,
+            Some(known) => known.shown(&self.asked, (lit, &method), (lights, other_lights.as_deref()))?,
             None => (lights, None),
         };
-        Context::new(lit, method, start, &self.asked.fit, (lights, others, shown))
+        let setting = Setting::of(lit)?;
+        let (model, fold) = (setting.model_to_fit(&self.asked.fit)?, fold_of(lit, setting)?);
+        let stated = stated(&optics, is_daylight_assumed);
+        let inference = Inference {
+            model,
+            wavelengths_nm: grid.wavelengths_nm().to_vec(),
+            start,
+            is_auto: self.is_auto(),
+            stated: if lights.is_empty() { stated } else { stated.but_light() },
+            lights,
+            other_lights,
+            other_cameras: other_cameras(&optics),
+            shown,
+            panel: fold.as_ref().map(|fold| fold.fold.facets()),
+        };
+        Ok(Context { inference, method, fold })
     }
 
     fn sample(&self, context: &Context, sample: &mut Sample) -> Result<Made> {
@@ -175,25 +192,24 @@ impl Transform for Estimator<'_> {
         self.known_fold.iter().try_for_each(|known| known.check(sample, exposure))?;
         let (estimate, verdict, how) = match &context.method {
             SceneMethod::Map(prior) => {
-                let deviations = Deviations::of(&noise, context.model.facets(), &rgb)?;
+                let Context { inference, fold, .. } = context;
+                let deviations = Deviations::of(&noise, inference.model.facets(), &rgb)?;
                 let is_photograph = sample.is_photograph();
-                let fold = context.fold.as_deref();
-                let photographed_fold = fold.filter(|_| is_photograph);
-                let shadows =
-                    photographed_fold.map(|fold| fold.shadows(&Measured { rgb: &rgb, sd: &deviations.sd }));
-                let shadows = shadows.unwrap_or_default();
-                let rgb = Shadow::left_out(&shadows, &rgb);
+                let (rgb, shadows) = match fold {
+                    Some(fold) if is_photograph => fold.out_of_shadows(&rgb, &deviations.sd),
+                    _ => (rgb, Vec::new()),
+                };
                 let measured = &Measured { rgb: &rgb, sd: &deviations.sd };
-                let inference = context.inference(prior, self.is_auto());
                 let data = inference.data(measured, exposure, is_photograph)?;
-                let photograph = || photographed(fold, sample, (measured, shadows), exposure);
+                let photograph = || photographed(fold.as_deref(), sample, (measured, shadows), exposure);
                 let photograph = is_photograph.then(photograph).transpose()?;
                 let is_modelled = photograph.as_ref().is_some_and(|one| matches!(one.parts, Some(Ok(_))));
                 if !(is_modelled && self.is_auto()) {
                     self.say_paper_unused(sample, exposure)?;
                 }
                 let facets = Facets { measured, exposure, photograph: photograph.as_ref() };
-                let Measurement { estimate, verdict, unmodelled, .. } = inference.measure(&facets, &data)?;
+                let Measurement { estimate, verdict, unmodelled, .. } =
+                    inference.measure(&facets, &data, prior)?;
                 unmodelled.iter().for_each(|why| self.say_unmodelled(sample, &estimate, *why));
                 let how =
                     format!("prior {}, {deviations}, {}", self.asked.args.prior(), messages::size(&data));
@@ -207,7 +223,7 @@ impl Transform for Estimator<'_> {
             SceneMethod::Flat(flat) => {
                 self.say_paper_unused(sample, exposure)?;
                 let measured = Measured { rgb: &rgb, sd: &alike(&rgb) };
-                let sheet = FlatSheet::new(context.model.facets(), &measured, exposure)?;
+                let sheet = FlatSheet::new(context.inference.model.facets(), &measured, exposure)?;
                 (flat.estimate(&sheet)?, None, flat.to_string())
             }
         };
@@ -236,8 +252,8 @@ impl<'a> Estimator<'a> {
             method: method(args)?,
             forgets_light: args.planning.forgets_light(args.kernel.kernel.is_some())?,
             known_fold: KnownFold::of(args)?,
-            last_prior: Mutex::default(),
-            last_others: Mutex::default(),
+            prior: Latest::default(),
+            other_lights: Latest::default(),
         })
     }
 
@@ -255,44 +271,27 @@ impl<'a> Estimator<'a> {
         exposure: Exposure,
     ) -> Result<Estimate> {
         let sd = deviations(rgb, |_| noise_sd, self.asked.args.model_error.unwrap_or(0.0));
-        let inference = context.inference(self.prior_of(context)?, self.is_auto());
-        let data = inference.data(&Measured { rgb, sd: &sd }, exposure, false)?;
-        map::estimate(&data, inference.prior, inference.start)
+        let data = context.inference.data(&Measured { rgb, sd: &sd }, exposure, false)?;
+        map::estimate(&data, self.prior_of(context)?, context.inference.start.as_deref())
     }
 
-    /// The prior on the wavelengths of a scene. It takes time and memory to compute, so successive scenes on
-    /// the same wavelengths share it.
+    /// The prior on these wavelengths.
     fn prior_on(&self, grid: &WavelengthGrid, spectra: Option<&PriorSpectra>) -> Result<Arc<Prior>> {
-        let wavelengths_nm = grid.wavelengths_nm();
-        let mut last = self.last_prior.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((of_last_nm, prior)) = &*last
-            && of_last_nm == wavelengths_nm
-        {
-            return Ok(Arc::clone(prior));
-        }
-        let prior = Arc::new(match spectra {
-            None => Prior::built_in(wavelengths_nm)?,
-            Some((spectra, classes)) => {
-                let on_grid = spectra.iter().map(|one| one.on(grid, Outside::Refuse));
-                let on_grid: Vec<_> = on_grid.collect::<Result<_>>().map_err(|e| e.of_flag("--prior"))?;
-                Prior::from_spectra(wavelengths_nm, &on_grid, classes.as_deref())?
-            }
-        });
-        *last = Some((wavelengths_nm.to_vec(), Arc::clone(&prior)));
-        Ok(prior)
+        self.prior.get(grid.clone(), |grid| {
+            let Some((spectra, classes)) = spectra else {
+                return Ok(Arc::new(Prior::built_in(grid.wavelengths_nm())?));
+            };
+            let on_grid = spectra.iter().map(|one| one.on(grid, Outside::Refuse));
+            let on_grid: Vec<_> = on_grid.collect::<Result<_>>().map_err(|e| e.of_flag("--prior"))?;
+            Ok(Arc::new(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?))
+        })
     }
 
-    /// Alternatives to a light. Computing them takes longer than an estimate, so successive scenes with the
-    /// same camera share them.
-    fn shared(&self, others: Option<Others>) -> Option<Arc<Others>> {
-        let others = others?;
-        let mut last = self.last_others.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(last) = &*last
-            && last.are_those_of(&others)
-        {
-            return Some(Arc::clone(last));
-        }
-        Some(Arc::clone(last.insert(Arc::new(others))))
+    /// Alternatives to the light of a scene, if there are any.
+    fn other_lights(&self, optics: &Optics, is_daylight_assumed: bool) -> Result<Option<Arc<Others>>> {
+        let Some(others) = other_lights(optics, is_daylight_assumed) else { return Ok(None) };
+        let of = (optics.grid.clone(), optics.camera.sensitivities.clone());
+        self.other_lights.get(of, |_| Ok(Arc::new(others))).map(Some)
     }
 
     /// Candidates for an unknown light, for this camera.
@@ -368,7 +367,8 @@ impl<'a> Estimator<'a> {
             cli::say("vestimate", &format!("{id}: {how}; {}", messages::outcome(estimate, exposure)));
         }
         // methods that do not weight facets know their noise nevertheless
-        let rms = || Ok(Deviations::of(&noise, context.model.facets(), &sample.facet_rgb()?)?.rms());
+        let rms =
+            || Ok(Deviations::of(&noise, context.inference.model.facets(), &sample.facet_rgb()?)?.rms());
         refuse_unexplained(estimate, || verdict.map_or_else(rms, |_| Ok(1.0)))?;
         let (method, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
@@ -379,7 +379,7 @@ impl<'a> Estimator<'a> {
         let record = sample.set_estimate(&NewEstimate {
             method,
             prior,
-            wavelengths_nm: context.grid.wavelengths_nm(),
+            wavelengths_nm: &context.inference.wavelengths_nm,
             estimate,
             noise: verdict.map(|_| &noise),
             joined,
@@ -425,13 +425,14 @@ impl<'a> Estimator<'a> {
         smoothness: Smoothness,
     ) -> Result<(Estimate, String)> {
         let measured = Measured { rgb, sd: &alike(rgb) };
-        let data = FacetData::new(&context.model, &measured, exposure, smooth::CUTOFF)?;
-        let middle = vec![0.5; context.grid.len()];
-        let start = context.start.as_ref().unwrap_or(&middle);
+        let Inference { model, wavelengths_nm, start, .. } = &context.inference;
+        let data = FacetData::new(model, &measured, exposure, smooth::CUTOFF)?;
+        let middle = vec![0.5; wavelengths_nm.len()];
+        let start = start.as_ref().unwrap_or(&middle);
         let (estimate, weight) = match smoothness {
             Smoothness::Weight(weight) => (smooth::estimate(&data, weight, start)?, format!("{weight:e}")),
             Smoothness::Auto => {
-                let noise = Deviations::of(noise, context.model.facets(), rgb)?;
+                let noise = Deviations::of(noise, model.facets(), rgb)?;
                 (
                     smooth::estimate_by_discrepancy(&data, noise.rms(), start)?,
                     format!("as allowed by {noise}"),

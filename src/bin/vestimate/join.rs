@@ -8,7 +8,6 @@ use vfold::estimate::Exposure;
 use vfold::estimate::measured::Measured;
 use vfold::estimate::measurement::{Facets, Measurement, Photographed, of_one_sheet};
 use vfold::estimate::photograph::Parts;
-use vfold::estimate::shadow::Shadow;
 use vfold::files::composed;
 use vfold::forward::FacetValues;
 use vfold::scene::photographed;
@@ -119,7 +118,7 @@ pub fn run(
 /// # Errors
 /// [`Error::Field`] if they do not.
 pub fn check_wavelengths(one: &Context, other: &Context) -> Result<()> {
-    if one.grid.wavelengths_nm() == other.grid.wavelengths_nm() {
+    if one.inference.wavelengths_nm == other.inference.wavelengths_nm {
         return Ok(());
     }
     let problem = "photographs of one sheet have different wavelengths; use the same for all scenes";
@@ -144,9 +143,8 @@ impl Estimator<'_> {
         };
         let fold = context.fold.as_deref().ok_or_else(|| alone("the scene is not a fold".to_owned()))?;
         let rgb = sample.facet_rgb()?;
-        let sd = self.asked.noise(sample)?.deviations(context.model.facets(), &rgb)?;
-        let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
-        let rgb = Shadow::left_out(&shadows, &rgb);
+        let sd = self.asked.noise(sample)?.deviations(context.inference.model.facets(), &rgb)?;
+        let (rgb, shadows) = fold.out_of_shadows(&rgb, &sd);
         let measured = Measured { rgb: &rgb, sd: &sd };
         let mut photograph =
             photographed(Some(fold), sample, (&measured, shadows), self.asked.exposure_of(sample)?)?;
@@ -176,8 +174,7 @@ impl Together for Estimator<'_> {
                 exposure: self.asked.exposure_of(&one.sample)?,
                 photograph: Some(&photograph),
             };
-            let inference = one.context.inference(self.prior_of(&one.context)?, self.is_auto());
-            let Measurement { estimate, verdict, .. } = inference.share(&facets, estimate);
+            let Measurement { estimate, verdict, .. } = one.context.inference.share(&facets, estimate);
             self.finish(&one.context, &mut one.sample, (&estimate, Some(&verdict)), &how, &ids)
         };
         estimates.map(joined).collect()

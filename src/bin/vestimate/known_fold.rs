@@ -1,14 +1,11 @@
 //! `--known-fold`: a fold of a sheet with known reflectance, in addition to those that are estimated.
 
-use std::sync::{Mutex, PoisonError};
-
 use vfold::estimate::Exposure;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::light::{Candidate, KnownSheet, Others, Shown};
 use vfold::estimate::measured::Measured;
 use vfold::estimate::measurement::CUTOFF;
 use vfold::estimate::photograph::Parts;
-use vfold::estimate::shadow::Shadow;
 use vfold::scene::{FoldSetting, PhotographedFold, Picture, Setting};
 use vfold::spectrum::{Outside, Spectrum};
 use vfold::stream::{Optics, Reader, Record, Sample, Scene};
@@ -17,6 +14,7 @@ use vfold::{Error, Result};
 use super::Args;
 use super::asked::Asked;
 use super::context::SceneMethod;
+use super::latest::Latest;
 
 const FLAG: &str = "--known-fold";
 
@@ -26,8 +24,8 @@ pub struct KnownFold {
     scene: Scene,
     sample: Sample,
     spectrum: Spectrum,
-    /// Its latest result, and the light to which it applies.
-    last: Mutex<Option<(Taken, Known)>>,
+    /// What it shows of a light.
+    known: Latest<Taken, Known>,
 }
 
 /// Light and camera of samples, and whether the light is assumed daylight, or unknown.
@@ -80,7 +78,7 @@ impl KnownFold {
         if let Some(problem) = sample.error().map_err(|e| reader.at(e))? {
             return Err(reader.at(Error::field("error", problem)));
         }
-        Ok(Some(Self { path: path.clone(), scene, sample, spectrum, last: Mutex::default() }))
+        Ok(Some(Self { path: path.clone(), scene, sample, spectrum, known: Latest::default() }))
     }
 
     /// Its evidence on the light of the samples' scene, which is stated in an assumed light if it is one of
@@ -92,15 +90,7 @@ impl KnownFold {
         (lights, others): (Vec<Candidate>, Option<&Others>),
     ) -> Result<Known> {
         let taken = (samples.optics()?, [samples.is_daylight_assumed()?, !lights.is_empty()]);
-        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((of_last, known)) = &*last
-            && *of_last == taken
-        {
-            return Ok(known.clone());
-        }
-        let known = self.shown_anew(asked, method, &taken, (lights, others))?;
-        *last = Some((taken, known.clone()));
-        Ok(known)
+        self.known.get(taken, |taken| self.shown_anew(asked, method, taken, (lights, others)))
     }
 
     fn shown_anew(
@@ -162,8 +152,7 @@ impl KnownFold {
             .noise(&self.sample)?
             .deviations(&fold.model().map_err(|e| self.at(&e))?, &rgb)
             .map_err(|e| self.at(&e))?;
-        let shadows = fold.shadows(&Measured { rgb: &rgb, sd: &sd });
-        let rgb = Shadow::left_out(&shadows, &rgb);
+        let (rgb, _) = fold.out_of_shadows(&rgb, &sd);
         let measured = Measured { rgb: &rgb, sd: &sd };
         let exposure = asked.exposure_of(&self.sample)?.known();
         let picture = Picture::of(&self.sample, &measured, exposure).map_err(|e| self.at(&e))?;

@@ -7,6 +7,7 @@ mod estimator;
 mod flat;
 mod join;
 mod known_fold;
+mod latest;
 mod messages;
 mod plan;
 mod settings;

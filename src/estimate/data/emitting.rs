@@ -2,10 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{FacetData, TELLING_CHANNELS};
+use super::FacetData;
 use crate::estimate::Exposure;
 use crate::estimate::emission::terms::{ExcitingBounces, Made, made};
 use crate::estimate::emission::{Emission, Fall, Sent, UNKNOWNS};
+use crate::estimate::family::TELLING_CHANNELS;
 use crate::estimate::gaussian::logistic;
 
 /// Emission of the sheet at a point.

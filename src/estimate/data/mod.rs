@@ -49,10 +49,6 @@ struct SumRule {
     sources: Vec<DVector<f64>>,
 }
 
-/// Number of channels, counted over all lights, that distinguish classes of spectra, and light that the sheet
-/// itself emits: fewer have several modes, none of which need be that of most evidence.
-pub const TELLING_CHANNELS: usize = 3;
-
 /// Brightness used to weigh directions of the model, at least 1: the exposure or, if that is fitted, the
 /// brightest facet. At an exposure below 1 a few more directions are kept than exceed the noise.
 fn brightness(measured: &Measured, exposure: Exposure) -> f64 {

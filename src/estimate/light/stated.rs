@@ -47,12 +47,6 @@ impl Others {
         Self { grid: grid.clone(), sensitivities: sensitivities.to_vec(), lights: OnceLock::new() }
     }
 
-    /// True if these are the same lights and the same camera.
-    #[must_use]
-    pub fn are_those_of(&self, other: &Self) -> bool {
-        self.grid == other.grid && self.sensitivities == other.sensitivities
-    }
-
     /// Empty if the built-in lights do not cover the wavelengths.
     pub fn lights(&self) -> &[Candidate] {
         self.lights.get_or_init(|| {

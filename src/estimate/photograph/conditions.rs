@@ -8,6 +8,7 @@ use super::day::Day;
 use super::priors::Priors;
 use crate::estimate::emission::Backing;
 use crate::estimate::unknowns::Normal;
+use crate::solve::dense::rms;
 use crate::spectrum::daylight_weights;
 
 /// Everything that determines the facets of a photograph, apart from the spectrum and the sheet model.
@@ -232,7 +233,7 @@ impl Daylight {
         let off = |mired: f64| {
             let daylight = Self::power(vectors, mired);
             let daylight = &daylight / daylight.mean();
-            ((daylight - &sun).norm_squared() / sun.len() as f64).sqrt()
+            rms(&(daylight - &sun))
         };
         let range = (BLUEST_SUN_MIRED as u32..=MOST_MIRED as u32).map(f64::from);
         let (off, mired) = range.map(|mired| (off(mired), mired)).min_by(|a, b| a.0.total_cmp(&b.0))?;

@@ -12,25 +12,12 @@ use crate::solve::dense::{add, add_rows, cholesky, columns};
 
 /// Correlated error of facets, relative to their values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ModelError {
-    /// Standard deviation of the part shared by all channels.
-    pub shared: f64,
-    /// Of the part of each channel by itself.
-    pub own: f64,
-    /// Of the part of each facet by itself.
-    pub white: f64,
-    /// Of the facets at the crease by themselves, nearly the same in all channels: the crease is not as
-    /// sharp, or as round, as in the model.
-    pub at_crease: f64,
-    /// Of the facets at the outer sides by themselves, nearly the same in all channels: an edge is not
-    /// straight or sharp, so that some background counts as sheet.
-    pub at_outer_side: f64,
-    /// Displacement of a corner from its mark, in panel depths.
-    pub corner: f64,
-    /// Correlation length, in panel depths.
-    pub length: f64,
-    /// Of one panel relative to the other, the same in all channels: light from the side.
-    pub aside: f64,
+pub struct ModelError<'a> {
+    priors: &'a Priors,
+    /// Share of the sky in the light.
+    diffuse: f64,
+    /// Size, relative to usual photographs.
+    size: f64,
 }
 
 /// Depth over which the crease or an outer side matters, in panel depths.
@@ -38,37 +25,12 @@ const SIDE_DEPTH: f64 = 0.06;
 /// Share of the variance there that is common to all channels.
 const SIDE_SHARED: f64 = 0.8;
 
-impl ModelError {
-    /// For photographs of sheets that the sheet models describe, on this kind of day.
+impl<'a> ModelError<'a> {
+    /// For photographs of sheets that the sheet models describe, on this kind of day, which deviate from the
+    /// ideal `size` times as much as usual ones.
     #[must_use]
-    pub fn of(priors: &Priors, day: Day) -> Self {
-        let diffuse = day.diffuse_share(priors);
-        Self {
-            shared: priors.discrepancy_shared.hypot(diffuse * priors.discrepancy_sky),
-            aside: diffuse * priors.discrepancy_sky_aside,
-            own: priors.discrepancy_own,
-            white: priors.discrepancy_white,
-            at_crease: priors.discrepancy_at_crease,
-            at_outer_side: priors.discrepancy_at_outer_side,
-            corner: priors.corner,
-            length: priors.discrepancy_length,
-        }
-    }
-
-    /// The same for a photograph that deviates from the ideal `by` times as much.
-    #[must_use]
-    pub fn scaled(&self, by: f64) -> Self {
-        let &Self { shared, own, white, at_crease, at_outer_side, corner, length, aside } = self;
-        Self {
-            shared: by * shared,
-            own: by * own,
-            white: by * white,
-            at_crease: by * at_crease,
-            at_outer_side: by * at_outer_side,
-            corner: by * corner,
-            length,
-            aside: by * aside,
-        }
+    pub fn of(priors: &'a Priors, day: Day, size: f64) -> Self {
+        Self { priors, diffuse: day.diffuse_share(priors), size }
     }
 
     /// The whitening of the errors of all values; `None` if their covariance is not finite.
@@ -84,15 +46,16 @@ impl ModelError {
             if a < b { 0.0 } else { self.correlation(&places[a], &places[b]) }
         });
         let at_sides: Vec<f64> = places.iter().map(|place| self.at_sides(place)).collect();
+        let [shared, own, white, corner, aside] = self.variances();
         let covariance = |i: usize, j: usize| {
             let ((a, c), (b, d)) = ((i % facets, i / facets), (j % facets, j / facets));
-            let own = if c == d { self.own.powi(2) } else { 0.0 };
-            let mut relative = (self.shared.powi(2) + own) * correlations[(a.max(b), a.min(b))];
+            let own = if c == d { own } else { 0.0 };
+            let mut relative = (shared + own) * correlations[(a.max(b), a.min(b))];
             if a == b {
                 relative += at_sides[a] * if c == d { 1.0 } else { SIDE_SHARED };
             }
             if i == j {
-                relative += self.white.powi(2);
+                relative += white;
             }
             let noise = if i == j { sd[(a, c)].powi(2) } else { 0.0 };
             relative * values[(a, c)] * values[(b, d)] + noise
@@ -100,14 +63,11 @@ impl ModelError {
         let count = values.len();
         let mut covariance = DMatrix::from_fn(count, count, covariance);
         for shift in shifts(places, values) {
-            covariance.ger(self.corner.powi(2), &shift, &shift, 1.0);
+            covariance.ger(corner, &shift, &shift, 1.0);
         }
-        let aside =
-            DVector::from_fn(
-                count,
-                |i, _| if places[i % facets].panel == 0 { values[i] } else { -values[i] },
-            );
-        covariance.ger(self.aside.powi(2), &aside, &aside, 1.0);
+        let side = |i: usize| if places[i % facets].panel == 0 { values[i] } else { -values[i] };
+        let sides = DVector::from_fn(count, |i, _| side(i));
+        covariance.ger(aside, &sides, &sides, 1.0);
         let factor = cholesky(covariance)?.unpack();
         let mut inverse = DMatrix::zeros(count, count);
         for n in 0..count {
@@ -120,14 +80,26 @@ impl ModelError {
         Some(Whitening { inverse, ln_determinant })
     }
 
+    /// Variances: what all channels share, of each channel by itself, of each facet by itself, of the position
+    /// of a corner, and of light from the side, which one panel gains and the other loses.
+    fn variances(&self) -> [f64; 5] {
+        let Self { priors, diffuse, .. } = self;
+        let shared = priors.discrepancy_shared.hypot(diffuse * priors.discrepancy_sky);
+        let aside = diffuse * priors.discrepancy_sky_aside;
+        [shared, priors.discrepancy_own, priors.discrepancy_white, priors.corner, aside]
+            .map(|sd| (self.size * sd).powi(2))
+    }
+
     /// Variance of a facet's own error at the crease and at the outer side.
     fn at_sides(&self, place: &Place) -> f64 {
-        let at = |sd: f64, away: f64| (sd * (-0.5 * (away / SIDE_DEPTH).powi(2)).exp()).powi(2);
-        at(self.at_crease, place.depth) + at(self.at_outer_side, 1.0 - place.depth)
+        let at = |sd: f64, away: f64| (self.size * sd * (-0.5 * (away / SIDE_DEPTH).powi(2)).exp()).powi(2);
+        at(self.priors.discrepancy_at_crease, place.depth)
+            + at(self.priors.discrepancy_at_outer_side, 1.0 - place.depth)
     }
 
     fn correlation(&self, a: &Place, b: &Place) -> f64 {
-        let square = ((a.depth - b.depth).powi(2) + (a.along - b.along).powi(2)) / self.length.powi(2);
+        let apart = (a.depth - b.depth).powi(2) + (a.along - b.along).powi(2);
+        let square = apart / self.priors.discrepancy_length.powi(2);
         if a.panel == b.panel { (-0.5 * square).exp() } else { 0.0 }
     }
 }

@@ -15,10 +15,9 @@ use crate::estimate::gaussian::Gaussian;
 use crate::estimate::mixture::LocalMode;
 use crate::estimate::prior::Prior;
 use crate::estimate::unknowns::EXPOSURE;
+use crate::solve::dense::rms;
 use crate::solve::posterior::{Linearised, Model};
 
-/// Number of channels that distinguish classes.
-const TELLING_CHANNELS: usize = 3;
 /// A mode counts as found within this many standard deviations.
 const TOLERANCE: f64 = 0.03;
 /// A number is determined by the facets if its standard deviation is below this share of the prior one.
@@ -134,8 +133,8 @@ impl<'a> Family for Photographs<'a> {
         }
     }
 
-    fn tells_classes(&self) -> bool {
-        self.0.iter().any(|photograph| photograph.parts.values.ncols() >= TELLING_CHANNELS)
+    fn channels(&self) -> usize {
+        self.0.iter().map(|photograph| photograph.parts.values.ncols()).max().unwrap_or(0)
     }
 
     /// Noise of photographs is never so small that classes are distinguished at a larger one.
@@ -189,7 +188,7 @@ impl SpectrumModel for JointModel<'_> {
     }
 
     fn rms(&self, residuals: &DVector<f64>) -> f64 {
-        (residuals.norm_squared() / residuals.len() as f64).sqrt()
+        rms(residuals)
     }
 
     fn ln_whitening(&self) -> f64 {

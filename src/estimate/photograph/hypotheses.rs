@@ -84,7 +84,7 @@ impl Hypothesis {
     /// A usual photograph with this sheet model.
     #[must_use]
     pub fn usual(kind: SheetModel) -> Self {
-        Self { kind, imperfection: Imperfection::USUAL, day: Day::Clear, mistake: None, emission: None }
+        Self { kind, imperfection: Imperfection::Usual, day: Day::Clear, mistake: None, emission: None }
     }
 
     /// A usual photograph under another sky than that of a clear day.
@@ -98,7 +98,7 @@ impl Hypothesis {
     pub fn ideal(mistake: Option<Mistake>) -> Self {
         // the sky of a computed scene is white rather than blue
         let day = if mistake == Some(Mistake::Sky) { Day::Hazy } else { Day::Clear };
-        Self { kind: SheetModel::Matt, imperfection: Imperfection::IDEAL, day, mistake, emission: None }
+        Self { kind: SheetModel::Matt, imperfection: Imperfection::Ideal, day, mistake, emission: None }
     }
 
     /// Logarithm of its probability, given what was stated about a photograph.

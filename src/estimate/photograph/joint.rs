@@ -75,8 +75,7 @@ impl<'a> JointModel<'a> {
         let mut members: Vec<Member<'a>> = Vec::with_capacity(photographs.len());
         let mut count = gaussian.basis().ncols();
         for (photograph, one) in photographs.iter().enumerate() {
-            let (parts, whitening) =
-                (one.parts, one.whitening(hypothesis.imperfection.discrepancy, hypothesis.day)?);
+            let (parts, whitening) = (one.parts, one.whitening(hypothesis.imperfection, hypothesis.day)?);
             let emission = hypothesis.emission.and_then(|place| one.emissions().get(place));
             let model =
                 PhotographModel::new(parts, &one.sheet_models, (hypothesis, emission), gaussian, whitening);

@@ -13,6 +13,7 @@ use crate::estimate::family::{Family, SpectrumModel};
 use crate::estimate::prior::Prior;
 use crate::estimate::smooth_errors::smooth_errors;
 use crate::estimate::unknowns::{Normal, SKY_COLOUR, SUN_COLOUR, Unknown};
+use crate::solve::dense::{rms, stacked};
 use crate::solve::posterior::{Evaluated, Limits, Linearised, Model, Solution, find_mode, first_tempering};
 
 /// A mode counts as found within this many standard deviations, which changes the log evidence by much less
@@ -66,10 +67,6 @@ impl KnownModel<'_> {
         let reflectance = DVector::from_iterator(albedo.len(), albedo.iter().map(|a| slope * a + offset));
         &self.known.whitening * (&self.known.reflectance - reflectance)
     }
-}
-
-fn stacked(above: &DVector<f64>, below: &DVector<f64>) -> DVector<f64> {
-    DVector::from_iterator(above.len() + below.len(), above.iter().chain(below).copied())
 }
 
 impl<'a> Model for KnownModel<'a> {
@@ -143,7 +140,7 @@ impl Photographs<'_> {
         let lower = at.information()?.l();
         let own = lower.solve_lower_triangular(&DMatrix::identity(lower.nrows(), lower.nrows()))?;
         let facets = model.photograph.first().model.values().len();
-        let rms = at.residuals.rows(0, facets).norm() / (facets as f64).sqrt();
+        let rms = rms(&at.residuals.rows(0, facets).into_owned());
         let mired = |unknown: &Unknown| {
             let first = &model.photograph.first();
             let [scene, ..] = first.model.layout();

@@ -23,6 +23,7 @@ use crate::estimate::prior::Prior;
 use crate::estimate::search::Search;
 use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
+use crate::solve::dense::rms;
 use crate::solve::ln_sum;
 use crate::solve::posterior::{Iteration, Model};
 
@@ -291,16 +292,11 @@ fn all_findings(
     day: Option<DayEstimate>,
 ) -> Vec<super::Finding> {
     let hypothesis = found.best.start.hypothesis;
-    let imperfection = hypothesis.imperfection;
     let mut findings: Vec<_> = day.and_then(of_day).into_iter().collect();
     let stated = StatedScene { day: hypothesis.day, ..parts.stated };
     findings.extend(of_unknowns(&seen.fitted, &stated, hypothesis));
-    if !imperfection.is_ideal() {
-        findings.extend(corners::findings(
-            &seen.shifts,
-            &seen.residuals,
-            imperfection.scale * parts.stated.priors.corner,
-        ));
+    if !hypothesis.imperfection.is_ideal() {
+        findings.extend(corners::findings(&seen.shifts, &seen.residuals, parts.stated.priors.corner));
     }
     findings
 }
@@ -327,26 +323,16 @@ fn of_photograph(found: &Mixture<Hypothesis, ()>, seen: Seen, trace: &[Vec<Itera
     // weights may add up to slightly more than 1 by rounding
     let within = |values: &[f64]| values.iter().map(|value| value.min(1.0)).collect::<Vec<_>>();
     let (reflectance, albedo) = found.values[..2 * bands].split_at(bands);
+    let left = (rms(&seen.residuals), seen.unexplained);
     Estimate {
         albedo: (!is_ideal).then(|| within(albedo)),
-        reflectance: within(reflectance),
         spread: found.spread.as_ref().map(|spread| spread.columns(0, bands).into_owned()),
-        exposure: seen.exposure,
         fitted: seen.fitted,
-        findings: Vec::new(),
-        skipped: Vec::new(),
-        residual_rms: rms(&seen.residuals),
-        unexplained: seen.unexplained,
-        day: None,
-        fluorescence: None,
-        light: None,
-        without_bounces: 0.0,
-        iterations: trace.iter().map(Vec::len).sum::<usize>() as u32,
-        trace: trace.to_vec(),
-        termination: found.best.termination,
+        ..Estimate::searched(
+            within(reflectance),
+            seen.exposure,
+            left,
+            (trace.to_vec(), found.best.termination),
+        )
     }
-}
-
-fn rms(residuals: &DVector<f64>) -> f64 {
-    (residuals.norm_squared() / residuals.len() as f64).sqrt()
 }

@@ -8,6 +8,7 @@ use super::priors::Priors;
 use super::sheets::{Departure, FAMILY_NODES, FamilyNodes, SHEEN, Sheets};
 use crate::estimate::unknowns::Unknown;
 use crate::solve::Eigen;
+use crate::solve::dense::rms;
 
 /// Number of principal components of measured sheets.
 const VARIATIONS: usize = 8;
@@ -94,28 +95,20 @@ impl<'a> SheetModels<'a> {
         self.variations.len() + 1
     }
 
-    /// Change of the facets, at the albedo nodes, for each of the visible variations, in a photograph whose
-    /// imperfection has this scale.
-    pub fn by_variation(&self, kind: SheetModel, scale: f64) -> impl Iterator<Item = Radiance> + '_ {
-        self.variations.iter().map(move |own| scale * kind.variation(self.priors) * &own.radiance)
+    /// Change of the facets, at the albedo nodes, for each of the visible variations, in this amount of
+    /// sunlight.
+    pub fn by_variation(&self, kind: SheetModel, sun: f64) -> impl Iterator<Item = Radiance> + '_ {
+        self.variations.iter().map(move |own| sun * kind.variation(self.priors) * &own.radiance)
     }
 
-    /// Departure of a sheet from a Lambertian one for these sizes of its variations, in a photograph whose
-    /// imperfection has this scale.
+    /// Departure of a sheet from a Lambertian one for these sizes of its variations.
     #[must_use]
-    pub fn departure(
-        &self,
-        kind: SheetModel,
-        scale: f64,
-        conditions: &Conditions,
-        variations: &[f64],
-    ) -> Departure {
+    pub fn departure(&self, kind: SheetModel, conditions: &Conditions, variations: &[f64]) -> Departure {
         let mut sum = match kind {
             SheetModel::Measured => {
-                let mut mean = Departure::none(&self.measured.radiance);
-                mean.add(scale, &self.measured, [1.0, 0.0]);
+                let mut mean = self.measured.clone();
                 mean.reflectance[0] +=
-                    scale * self.sheets.instrument.shared * variations.last().copied().unwrap_or(0.0);
+                    self.sheets.instrument.shared * variations.last().copied().unwrap_or(0.0);
                 mean
             }
             // for these two the formula gives the instrument's reading
@@ -123,7 +116,7 @@ impl<'a> SheetModels<'a> {
             SheetModel::Family => self.family(conditions),
         };
         for (own, size) in self.variations.iter().zip(variations) {
-            sum.add(scale * kind.variation(self.priors) * size, own, [0.0, 0.0]);
+            sum.add(kind.variation(self.priors) * size, own, [0.0, 0.0]);
         }
         sum
     }
@@ -158,10 +151,7 @@ fn sum(all: &[Departure], shares: &[f64]) -> Departure {
 fn bounded(photographs: &[Parts]) -> Vec<Vec<Departure>> {
     let count = photographs.first().map_or(0, |parts| parts.sheets.measured.len());
     let share = |sheet: usize| {
-        let size = |parts: &Parts| {
-            let relative = relative(&parts.sheets.measured[sheet], &parts.sun.even);
-            relative.norm() / (relative.len() as f64).sqrt()
-        };
+        let size = |parts: &Parts| rms(&relative(&parts.sheets.measured[sheet], &parts.sun.even));
         (MOST / photographs.iter().map(size).fold(0.0, f64::max)).min(1.0)
     };
     let shares: Vec<f64> = (0..count).map(share).collect();

@@ -135,9 +135,9 @@ fn weigh_against_ideal(search: &mut Search<Photographs>, all: &mut [Tried]) {
         // an error that is a sixteenth as large makes one datum at most sixteen times as probable
         let data = real.solution.at.residuals.len() as f64;
         let is_hopeful = |imperfection: &Imperfection| {
-            real.ln_weight() - data * imperfection.discrepancy.size().ln() > ln_hopeless
+            real.ln_weight() - data * imperfection.discrepancy().ln() > ln_hopeless
         };
-        let less = real.hypothesis.imperfection.with_less_discrepancy().into_iter().filter(is_hopeful);
+        let less = [Imperfection::Careful, Imperfection::Simulated].into_iter().filter(is_hopeful);
         let less = less.filter_map(|imperfection| {
             let hypothesis = Hypothesis { imperfection, ..real.hypothesis };
             search.sort((hypothesis, real.ln_share), Some(real.solution.w.clone()), ln_hopeless)

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::day::Day;
 use super::error::{ModelError, Whitening};
-use super::imperfection::Discrepancy;
+use super::imperfection::Imperfection;
 use super::parts::Parts;
 use super::sheet_models::SheetModels;
 use crate::estimate::emission::Emission;
@@ -20,7 +20,7 @@ pub struct Photograph<'a> {
     /// The values to which errors are relative.
     values: DMatrix<f64>,
     /// Whitening of the residuals for each size of model error on each kind of day, computed on first use.
-    whitenings: Arc<[[OnceLock<Option<Whitening>>; Day::ALL.len()]; 4]>,
+    whitenings: Arc<[[OnceLock<Option<Whitening>>; Day::ALL.len()]; Imperfection::ALL.len()]>,
     /// Possible emissions of its sheet, computed on first use.
     emissions: OnceLock<Vec<Emission>>,
 }
@@ -29,27 +29,30 @@ pub struct Photograph<'a> {
 /// darker belongs to a fold in the sun.
 const DARKEST: f64 = 0.1;
 
+/// Values, facet by channel, that are no darker than that.
+fn bounded(mut values: DMatrix<f64>) -> DMatrix<f64> {
+    for mut channel in values.column_iter_mut() {
+        let least = DARKEST * channel.max();
+        channel.apply(|value| *value = value.max(least));
+    }
+    values
+}
+
 impl<'a> Photograph<'a> {
     /// Photographs of one sheet.
     #[must_use]
     pub fn all(of: &'a [Parts]) -> Vec<Self> {
         let photograph = |(parts, sheet_models): (&'a Parts, SheetModels<'a>)| {
-            let values = parts.values.clone();
-            let sheet_models = Arc::new(sheet_models);
+            let (sheet_models, values) = (Arc::new(sheet_models), bounded(parts.values.clone()));
             Self { parts, sheet_models, values, whitenings: Arc::default(), emissions: OnceLock::new() }
-                .relative_to(parts.values.clone())
         };
         of.iter().zip(SheetModels::of(of)).map(photograph).collect()
     }
 
     /// The same with errors relative to these values: facet by channel.
     #[must_use]
-    pub fn relative_to(self, mut values: DMatrix<f64>) -> Self {
-        for mut channel in values.column_iter_mut() {
-            let least = DARKEST * channel.max();
-            channel.apply(|value| *value = value.max(least));
-        }
-        Self { values, whitenings: Arc::default(), ..self }
+    pub fn relative_to(self, values: DMatrix<f64>) -> Self {
+        Self { values: bounded(values), whitenings: Arc::default(), ..self }
     }
 
     /// The same photograph assumed to be in the light of other parts, which are otherwise the same.
@@ -67,17 +70,17 @@ impl<'a> Photograph<'a> {
     }
 
     /// The whitening of the residuals; `None` if facets are not finite.
-    pub fn whitening(&self, discrepancy: Discrepancy, day: Day) -> Option<&Whitening> {
+    pub fn whitening(&self, imperfection: Imperfection, day: Day) -> Option<&Whitening> {
         // without a model error the day makes no difference, and it never matters what hides the sun
         let day = match day {
-            _ if discrepancy == Discrepancy::None => Day::Clear,
+            _ if imperfection.is_ideal() => Day::Clear,
             Day::Shade => Day::Overcast,
             other => other,
         };
         let whitening = || {
-            let error = ModelError::of(self.parts.stated.priors, day).scaled(discrepancy.size());
+            let error = ModelError::of(self.parts.stated.priors, day, imperfection.discrepancy());
             error.whitening(&self.parts.places, &self.values, &self.parts.sd)
         };
-        self.whitenings[discrepancy as usize][day as usize].get_or_init(whitening).as_ref()
+        self.whitenings[imperfection as usize][day as usize].get_or_init(whitening).as_ref()
     }
 }

@@ -147,7 +147,7 @@ impl<'a> Model for PhotographModel<'a> {
         }
         // variations of the sheet and errors of the sensitivities enter linearly
         let sun = &lights[0];
-        let variations = self.sheet_models.by_variation(kind, imperfection.scale * conditions.sun);
+        let variations = self.sheet_models.by_variation(kind, conditions.sun);
         for (n, change) in (sheet..).zip(variations.filter(|_| !imperfection.is_ideal())) {
             let mut radiances = DMatrix::zeros(values.nrows(), values.ncols());
             add_product(&mut radiances, &change, &sun.to_channels);

@@ -13,6 +13,7 @@ use super::corners;
 use super::day::Day;
 use super::error::Whitening;
 use super::hypotheses::Hypothesis;
+use super::imperfection::Imperfection;
 use super::lighting::Lighting;
 use super::number::Number;
 use super::parts::{Parts, Radiance};
@@ -201,7 +202,10 @@ impl<'a> PhotographModel<'a> {
 
     fn departure(&self, conditions: &Conditions, variations: &[f64]) -> Departure {
         let Hypothesis { kind, imperfection, .. } = self.hypothesis;
-        self.sheet_models.departure(kind, imperfection.scale, conditions, variations)
+        match imperfection {
+            Imperfection::Ideal => Departure::none(&self.parts.sun.even),
+            _ => self.sheet_models.departure(kind, conditions, variations),
+        }
     }
 
     /// Radiance of the facets minus that of a Lambertian sheet.
@@ -216,12 +220,12 @@ impl<'a> PhotographModel<'a> {
         let Parts { eye, .. } = self.parts;
         let [_, _, camera, emission, _] = self.layout();
         let mut sensitivities = eye.sensitivities.clone();
+        if self.hypothesis.imperfection.is_ideal() {
+            return sensitivities;
+        }
         for ((channel, error), size) in eye.errors.iter().zip(&w.as_slice()[camera..emission]) {
             let curve = &mut sensitivities.as_mut_slice()[channel * error.len()..];
-            curve
-                .iter_mut()
-                .zip(error.as_slice())
-                .for_each(|(value, error)| *value += self.hypothesis.imperfection.scale * size * error);
+            curve.iter_mut().zip(error.as_slice()).for_each(|(value, error)| *value += size * error);
         }
         sensitivities
     }
@@ -241,7 +245,7 @@ impl<'a> PhotographModel<'a> {
     #[must_use]
     pub fn instrument_errors(&self, albedo: &[f64]) -> Option<DMatrix<f64>> {
         let own = match self.hypothesis.kind {
-            SheetModel::Measured => self.hypothesis.imperfection.scale * self.parts.sheets.instrument.own,
+            SheetModel::Measured => self.parts.sheets.instrument.own,
             SheetModel::Matt | SheetModel::Family => return None,
         };
         let sd: Vec<f64> = albedo.iter().map(|albedo| own * albedo).collect();
