@@ -8,7 +8,6 @@
 use std::sync::OnceLock;
 
 use super::photograph::hypotheses::Hypothesis;
-use super::photograph::sheet_models::SheetModel;
 use super::photograph::{Modes, Parts};
 use super::prior::Prior;
 use super::rival::{LN_AHEAD, Rival, ln_enough};
@@ -74,7 +73,7 @@ impl OtherCameras {
 pub fn rival_camera(parts: &Parts, modes: &Modes, others: &OtherCameras, prior: &Prior) -> Option<Rival> {
     let Modes { photographs, ln_by_emission, .. } = modes;
     let (day, mode) = modes.of_day()?;
-    let hypothesis = Hypothesis::on_dull_day(*day, SheetModel::Family);
+    let hypothesis = Hypothesis::of_family(*day);
     let mut search = Search::new(photographs, prior);
     // the mode of a sheet that may emit light has more numbers
     let start = Some(mode.clone()).filter(|w| Some(w.len()) == photographs.unknowns(hypothesis, prior));

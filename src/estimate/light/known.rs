@@ -8,7 +8,7 @@ use std::iter;
 
 use nalgebra::DVector;
 
-use super::photograph::{LN_HOPELESS, daylight_of_known};
+use super::known_photograph::{LN_HOPELESS, daylight_of_known};
 use super::{Candidate, Others, ShownScenarios};
 use crate::error::{Error, Result};
 use crate::estimate::data::FacetData;

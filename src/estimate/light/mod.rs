@@ -6,7 +6,9 @@
 
 mod ideal;
 mod known;
+mod known_photograph;
 mod photograph;
+mod scenario;
 mod stated;
 mod stated_photograph;
 
@@ -14,7 +16,8 @@ use std::iter;
 
 pub use ideal::estimate;
 pub use known::{KnownSheet, Shown};
-pub use photograph::{ShownScenarios, estimate_photograph};
+pub use known_photograph::ShownScenarios;
+pub use photograph::estimate_photograph;
 pub use stated::{Others, rival};
 pub use stated_photograph::rival_in_photograph;
 

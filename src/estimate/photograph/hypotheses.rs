@@ -87,10 +87,11 @@ impl Hypothesis {
         Self { kind, imperfection: Imperfection::Usual, day: Day::Clear, mistake: None, emission: None }
     }
 
-    /// A usual photograph under another sky than that of a clear day.
+    /// A usual photograph of a sheet of the [family](SheetModel::Family) on this kind of day: under this
+    /// hypothesis lights and cameras are compared.
     #[must_use]
-    pub fn on_dull_day(day: Day, kind: SheetModel) -> Self {
-        Self { day, ..Self::usual(kind) }
+    pub fn of_family(day: Day) -> Self {
+        Self { day, ..Self::usual(SheetModel::Family) }
     }
 
     /// An ideal fold, everything as stated except for a mistake.

@@ -8,7 +8,6 @@ use super::family::Photographs;
 use super::hypotheses::Hypothesis;
 use super::joint::JointModel;
 use super::model::Point;
-use super::sheet_models::SheetModel;
 use crate::estimate::family::{Family, SpectrumModel};
 use crate::estimate::prior::Prior;
 use crate::estimate::smooth_errors::smooth_errors;
@@ -122,7 +121,7 @@ impl Photographs<'_> {
         start: Option<&DVector<f64>>,
         ln_least: f64,
     ) -> Option<KnownSeen> {
-        let hypothesis = Hypothesis::on_dull_day(day, SheetModel::Family);
+        let hypothesis = Hypothesis::of_family(day);
         let photograph = self.model(hypothesis, prior.broad())?;
         let ln_whitening = photograph.ln_whitening();
         let model = KnownModel { photograph, known };

@@ -10,7 +10,6 @@ use super::family::{Photographs, Seen};
 use super::findings::{of_day, of_unknowns};
 use super::hypotheses::{Hypothesis, dull_days, hypotheses, usual_hypotheses};
 use super::parts::Parts;
-use super::sheet_models::SheetModel;
 use super::sorting::{LN_EVIDENCE_HOPELESS, LN_EVIDENCE_NEAR, Tried, sorted};
 use super::whitened::Photograph;
 use crate::error::{Error, Result};
@@ -121,7 +120,7 @@ impl<'a> Weighed<'a> {
         trace.extend(search.trace);
         let is_of_family = |one: &Hypothesis| {
             let Hypothesis { day, emission, .. } = *one;
-            *one == Hypothesis { emission, ..Hypothesis::on_dull_day(day, SheetModel::Family) }
+            *one == Hypothesis { emission, ..Hypothesis::of_family(day) }
         };
         let of_family = sorted.iter().filter(|one| is_of_family(&one.hypothesis));
         let of_days = of_family.map(|one| (one.hypothesis.day, one.solution.w.clone())).collect();

@@ -41,7 +41,8 @@ impl Series {
 
     /// Sheet models on a dull day, the best of a clear day first: if it is far behind, so are the others.
     fn on(day: Day, by_weight: &[SheetModel]) -> Self {
-        let hypotheses = by_weight.iter().map(|kind| Hypothesis::on_dull_day(day, *kind)).collect();
+        let hypotheses =
+            by_weight.iter().map(|kind| Hypothesis { day, ..Hypothesis::usual(*kind) }).collect();
         Self { hypotheses, ln_far: LN_EVIDENCE_FAR }
     }
 
