@@ -40,9 +40,6 @@ pub fn is_hopeful(
     test.ln_gain_among(changes) + emission.ln_share(logit) > LN_ODDS_LEAST
 }
 
-/// Facets as data of a fluorescent sheet, and their mode under all spectra.
-pub type Fluorescing<'a> = (FacetData<'a>, Sorted<(), Second>);
-
 /// Indices of the emissions, the first of which is none, that a sheet may have; `plain` is its mode under all
 /// spectra without emission.
 pub fn possible<H>(
@@ -69,36 +66,13 @@ pub fn possible<H>(
 }
 
 /// True if the facets are so far from a sheet without emission that it is no start for others.
-fn is_unexplained<H>(plain: &Sorted<H, Second>, tempering: f64) -> bool {
+pub fn is_unexplained<H>(plain: &Sorted<H, Second>, tempering: f64) -> bool {
     plain.solution.surprise(tempering) > SURPRISE
 }
 
 /// True if a sheet with emission explains the facets at the noise at which hypotheses are sorted.
 pub fn explains<H>(data: &FacetData, sorted: &Sorted<H, Second>, tempering: f64) -> bool {
     data.rms(&sorted.solution.at.residuals) < EXPLAINED * tempering
-}
-
-/// The facets with each possible band that explains them, given their mode without emission, `plain`; there
-/// is hardly ever one.
-pub fn may_be<'a>(data: &FacetData<'a>, plain: &Sorted<(), Second>, prior: &Prior) -> Vec<Fluorescing<'a>> {
-    let emissions = data.scene().emissions();
-    let mut best = plain.ln_evidence;
-    let mut all = Vec::new();
-    for emission in possible(data, emissions, plain, prior).into_iter().map(|n| &emissions[n]) {
-        let Some(emitting) = data.emitting(emission) else { continue };
-        let mut search = Search::new(&emitting, prior);
-        let numbers = plain.solution.w.len() + emission.unknowns();
-        let start = (!is_unexplained(plain, search.tempering()))
-            .then(|| plain.solution.w.clone().resize_vertically(numbers, 0.0));
-        if let Some(sorted) = search.sort(((), 0.0), start, best + LN_EVIDENCE_HOPELESS)
-            && explains(&emitting, &sorted, search.tempering())
-        {
-            best = best.max(sorted.ln_evidence);
-            all.push((emitting, sorted));
-        }
-    }
-    all.retain(|(_, sorted)| sorted.ln_evidence >= best + LN_EVIDENCE_HOPELESS);
-    all
 }
 
 /// The emission inferred for a sheet; `None` if there is hardly a reason to expect any.

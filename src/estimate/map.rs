@@ -1,27 +1,37 @@
-//! The default: the posterior mean of the spectrum, given the facets and a prior on reflectances.
+//! The default for ideal folds: the posterior mean of the spectrum, given the facets and a prior on
+//! reflectances, in the stated light or in one of several.
 //!
 //! `z = logit r` is a priori Gaussian in each class of spectra; the facets are Gaussian about the model.
 //! Newton's method finds the mode in whitened z under each candidate class (`search`). The estimate is the
-//! mean of the modes, weighted by evidence. The curvature gives error bars (Laplace approximation), which
-//! widen where classes disagree or facets are further from the model than their noise.
+//! mean of the modes, weighted by evidence: over classes, over lights if none was stated, and over emissions
+//! of the sheet that the facets leave possible. The curvature gives error bars (Laplace approximation), which
+//! widen where modes disagree or facets are further from the model than their noise.
 
+use std::collections::BTreeSet;
 use std::iter;
 
+use nalgebra::DVector;
+
 use super::Estimate;
+use super::alternatives::Alternatives;
 use super::data::FacetData;
+use super::doubt::EXPLAINED;
+use super::emission::Emission;
 use super::facets::{Facets, Second};
-use super::fluorescence_search::{self, Fluorescing, PRECISE};
-use super::light::{Others, rival};
+use super::fluorescence_search::{LN_EVIDENCE_HOPELESS, PRECISE, explains, is_unexplained, possible};
+use super::light::{Candidate, InferredLight, Others, lights_in_order, rival};
 use super::mixture::Mixture;
 use super::prior::Prior;
 use super::rival::Rival;
-use super::search::{Search, Sorted};
-use super::searched::{Searched, Trace};
+use super::search::Search;
+use super::searched::{Lit, Searched, Trace};
 use super::unknowns::Expected;
-use super::verdict::EXPLAINED;
 use crate::error::{Error, Result};
 
-/// The most probable reflectance, together with the scene's unknowns. `start` is an initial reflectance in
+/// A band of emission is searched if it is possible in one of this many lights, the most probable ones.
+const TESTED: usize = 3;
+
+/// The posterior mean reflectance, together with the scene's unknowns. `start` is an initial reflectance in
 /// place of the prior's mean; if one mode has more evidence than all others it makes no difference.
 ///
 /// # Source
@@ -30,94 +40,164 @@ use crate::error::{Error, Result};
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
 pub fn estimate(data: &FacetData, prior: &Prior, start: Option<&[f64]>) -> Result<Estimate> {
-    Ok(estimate_in_stated_light(data, prior, start, None)?.0)
+    Ok(estimate_in((data, &[]), prior, start, None)?.0)
 }
 
-/// The same, and any light among `others` that is more probable than the stated one.
+/// The same in one of `lights` or, if there are none, in the stated light; and any light among `others` that
+/// is more probable than the stated one.
 ///
 /// # Errors
 /// As [`estimate`].
-pub fn estimate_in_stated_light(
-    data: &FacetData,
+pub fn estimate_in(
+    (data, lights): (&FacetData, &[Candidate]),
     prior: &Prior,
     start: Option<&[f64]>,
     others: Option<&Others>,
 ) -> Result<(Estimate, Option<Rival>)> {
     let not_finite = || Error::Numeric("the facets are not finite".to_owned());
-    let sorted = Sortings::of(data, prior, start).ok_or_else(not_finite)?;
-    let rival = others.and_then(|others| rival(data, (&sorted.plain, &sorted.fluorescing), others, prior));
-    let (found, trace) = sorted.most_probable(data, prior).ok_or_else(not_finite)?;
-    let Some((unknown, bound)) = impossible(data, &found.mixture) else {
-        return Ok((found.estimate(data, &found.mixture, trace), rival));
-    };
-    // The mode lies on the bound; its error bars are those of the unconstrained mode, to both sides.
-    let mut known = data.with_known(unknown, bound);
-    let mut all = trace;
-    let on_bound = loop {
-        let sorted = Sortings::of(&known, prior, start).ok_or_else(not_finite)?;
-        let (on_bound, more) = sorted.most_probable(&known, prior).ok_or_else(not_finite)?;
-        all.extend(more);
-        match impossible(&known, &on_bound.mixture) {
-            Some((unknown, bound)) => known = known.with_known(unknown, bound),
-            None => break on_bound,
-        }
-    };
-    Ok((on_bound.estimate(data, &found.mixture, all), rival))
+    let start = start.map(|start| Facets { data, gaussian: prior.broad() }.set_out_from(start));
+    let tempering = Search::new(data, prior).tempering();
+    let (sheet, mut trace) = (Sheet { data, lights, prior, tempering }, Trace::new());
+    let (found, rival) = sheet.most_probable((start.clone(), others), &mut trace).ok_or_else(not_finite)?;
+    // the mode lies on the bounds of unknowns that exceed them; its error bars are those of the unconstrained
+    // mode, to both sides
+    let (mut known, mut on_bounds) = (data.clone(), None::<Found>);
+    loop {
+        let Found { searched, .. } = on_bounds.as_ref().unwrap_or(&found);
+        let Some((unknown, bound)) = impossible(&known, &searched.mixture) else { break };
+        known = known.with_known(unknown, bound);
+        let sheet = Sheet { data: &known, ..sheet };
+        let (found, _) = sheet.most_probable((start.clone(), None), &mut trace).ok_or_else(not_finite)?;
+        on_bounds = Some(found);
+    }
+    let Found { searched, lights_of } = on_bounds.as_ref().unwrap_or(&found);
+    let light = (!lights.is_empty()).then(|| inferred(lights, lights_of, &searched.mixture));
+    Ok((Estimate { light, ..searched.estimate(data, &found.searched.mixture, trace) }, rival))
 }
 
-/// The facets under all spectra as one Gaussian: for a sheet without emission, then with each possible
-/// emission.
-struct Sortings<'a> {
-    plain: Sorted<(), Second>,
-    fluorescing: Vec<Fluorescing<'a>>,
-    trace: Trace,
+/// Facets of a sheet in the stated light or in one of several.
+#[derive(Clone, Copy)]
+struct Sheet<'r, 'a> {
+    data: &'r FacetData<'a>,
+    /// Candidates for the light; empty if it is stated.
+    lights: &'r [Candidate],
+    prior: &'r Prior,
+    /// Factor by which the noise is tempered while lights and emissions are sorted.
+    tempering: f64,
 }
 
-impl<'a> Sortings<'a> {
-    fn of(data: &FacetData<'a>, prior: &Prior, start: Option<&[f64]>) -> Option<Self> {
-        let all = Facets { data, gaussian: prior.broad() };
-        let mut search = Search::new(data, prior);
-        let start = start.map(|start| all.set_out_from(start));
-        let plain = search.sort(((), 0.0), start, f64::NEG_INFINITY)?;
+/// The mean of all modes, unconstrained by the ranges of the unknowns, and the light of each alternative.
+struct Found<'a> {
+    searched: Searched<'a>,
+    lights_of: Vec<usize>,
+}
+
+impl<'a> Sheet<'_, 'a> {
+    /// `None` if the facets are not finite.
+    fn most_probable(
+        &self,
+        (start, others): (Option<DVector<f64>>, Option<&Others>),
+        trace: &mut Trace,
+    ) -> Option<(Found<'a>, Option<Rival>)> {
         // precise facets are either explained by a sheet without emission or not: emission is considered only
         // in the latter case
-        let is_asked = search.tempering() <= PRECISE;
-        let fluorescing =
-            if is_asked { fluorescence_search::may_be(data, &plain, prior) } else { Vec::new() };
-        Some(Self { plain, fluorescing, trace: search.trace })
-    }
-
-    /// The mean of all modes, unconstrained by the ranges of the unknowns, and the trace.
-    fn most_probable(self, data: &FacetData<'a>, prior: &Prior) -> Option<(Searched<'a>, Trace)> {
-        let Self { plain, fluorescing, trace } = self;
-        let asked = !fluorescing.is_empty();
-        let (found, more) = Searched::among(with_plain(data, plain, fluorescing)?, prior)?;
-        let trace = [trace, more].concat();
-        let (rms, tempering) = (found.mixture.best.rms, Search::new(data, prior).tempering());
+        let may_emit = self.tempering <= PRECISE;
+        let all = self.sorted((start, may_emit), trace);
+        let rival = others.and_then(|others| rival(self.data, all.split_first()?, others, self.prior));
+        let emits = all.iter().any(Lit::emits);
+        let found = self.mean(all, trace)?;
+        let rms = found.searched.mixture.best.rms;
         // precise facets whose residuals reach a noise at which emission is considered may belong to a
         // fluorescent sheet
-        let is_open = tempering > PRECISE && rms > tempering;
-        if rms < EXPLAINED || !(asked || is_open) {
-            return Some((found, trace));
+        let is_open = if may_emit { emits } else { rms > self.tempering };
+        if rms < EXPLAINED || !is_open {
+            return Some((found, rival));
         }
         // the evidence of sheets that do not explain the facets is meaningless
-        let plain = Search::new(data, prior).sort(((), 0.0), None, f64::NEG_INFINITY)?;
-        let fluorescing = if asked { Vec::new() } else { fluorescence_search::may_be(data, &plain, prior) };
-        let (other, more) = Searched::among(with_plain(data, plain, fluorescing)?, prior)?;
-        let explains = asked || other.mixture.best.rms < EXPLAINED;
-        Some((if explains { other } else { found }, [trace, more].concat()))
+        let other = self.mean(self.sorted((None, !may_emit), trace), trace)?;
+        let is_better = may_emit || other.searched.mixture.best.rms < EXPLAINED;
+        Some((if is_better { other } else { found }, rival))
+    }
+
+    fn mean(&self, all: Vec<Lit<'a>>, trace: &mut Trace) -> Option<Found<'a>> {
+        let lights_of = all.iter().map(|one| one.light).collect();
+        let (searched, more) = Searched::among(all, self.prior)?;
+        trace.extend(more);
+        Some(Found { searched, lights_of })
+    }
+
+    /// The facets in each light that remains possible, under all spectra as one Gaussian: of a sheet without
+    /// emission, the most probable light first, then with each possible emission.
+    fn sorted(&self, (start, may_emit): (Option<DVector<f64>>, bool), trace: &mut Trace) -> Vec<Lit<'a>> {
+        let in_light = |light: usize| match self.lights.get(light) {
+            Some(light) => light.on(self.data),
+            None => self.data.clone(),
+        };
+        let every: Vec<usize> = (0..self.lights.len().max(1)).collect();
+        let lit = Alternatives::of(every.iter().map(|light| move || in_light(*light)));
+        let start = (start, f64::NEG_INFINITY);
+        let mut all = lights_in_order((self.lights, &every), &lit, self.prior, start, trace);
+        let [nothing, ..] = self.data.scene().emissions() else { return all };
+        let possible = if may_emit { self.possible(&all) } else { BTreeSet::new() };
+        if possible.is_empty() {
+            return all;
+        }
+        let emitting = |data: FacetData<'a>, emission: &Emission, light: usize| {
+            data.emitting(&self.in_light(emission, light)).unwrap_or(data)
+        };
+        // a sheet that is not explained is no start for others
+        let first = all.first().filter(|one| !is_unexplained(&one.sorted, self.tempering));
+        let plain = first.map(|one| one.sorted.solution.w.clone());
+        for Lit { light, data, .. } in &mut all {
+            *data = emitting(data.clone(), nothing, *light);
+        }
+        for emission in possible.into_iter().map(|band| &self.data.scene().emissions()[band]) {
+            let excited = every.iter().copied().filter(|n| self.in_light(emission, *n).is_excited());
+            let lit = |light: usize| emitting(in_light(light), emission, light);
+            let lit = Alternatives::of(every.iter().map(|light| move || lit(*light)));
+            let start =
+                plain.as_ref().map(|w| w.clone().resize_vertically(w.len() + emission.unknowns(), 0.0));
+            let excited: Vec<usize> = excited.collect();
+            let mut lit =
+                lights_in_order((self.lights, &excited), &lit, self.prior, (start, most(&all)), trace);
+            lit.retain(|one| explains(&one.data, &one.sorted, self.tempering));
+            all.append(&mut lit);
+        }
+        // sheets without emission remain: a band is less probable by itself
+        let least = most(&all) + LN_EVIDENCE_HOPELESS;
+        all.retain(|one| !one.emits() || one.sorted.ln_weight() >= least);
+        all
+    }
+
+    /// Indices of the emissions that the most probable lights leave possible.
+    fn possible(&self, all: &[Lit<'a>]) -> BTreeSet<usize> {
+        // the most probable one, and others unlike it
+        let is_between = |light: usize| self.lights.get(light).is_some_and(|light| light.is_between);
+        let is_tested = |(n, one): &(usize, &Lit)| *n == 0 || !is_between(one.light);
+        let of = |(_, Lit { light, data, sorted }): (usize, &Lit<'a>)| {
+            let emissions = self.data.scene().emissions().iter().map(|one| self.in_light(one, *light));
+            possible(data, &emissions.collect::<Vec<_>>(), sorted, self.prior)
+        };
+        all.iter().enumerate().filter(is_tested).take(TESTED).flat_map(of).collect()
+    }
+
+    fn in_light(&self, emission: &Emission, light: usize) -> Emission {
+        self.lights.get(light).map_or_else(|| emission.clone(), |light| emission.in_light(&light.power))
     }
 }
 
-/// The facets of a sheet without emission, then those of fluorescent ones.
-fn with_plain<'a>(
-    data: &FacetData<'a>,
-    plain: Sorted<(), Second>,
-    fluorescing: Vec<Fluorescing<'a>>,
-) -> Option<Vec<Fluorescing<'a>>> {
-    let nothing = data.scene().emissions().first().filter(|_| !fluorescing.is_empty());
-    let of_plain = nothing.map_or_else(|| Some(data.clone()), |nothing| data.emitting(nothing))?;
-    Some(iter::once((of_plain, plain)).chain(fluorescing).collect())
+/// The most evidence of all.
+fn most(all: &[Lit]) -> f64 {
+    all.iter().map(|one| one.sorted.ln_weight()).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The lights with their probabilities, given the light of each alternative.
+fn inferred(lights: &[Candidate], lights_of: &[usize], found: &Mixture<usize, Second>) -> InferredLight {
+    let mut probabilities = vec![0.0; lights.len()];
+    found.shares.iter().for_each(|(alternative, share)| probabilities[lights_of[*alternative]] += share);
+    let weighed = |(light, probability): (&Candidate, f64)| light.weighed(probability);
+    let powers = lights.iter().map(|light| light.power.as_slice());
+    InferredLight::of(iter::zip(iter::zip(lights, probabilities).map(weighed), powers))
 }
 
 /// An unknown of the scene outside its range, and the bound that it exceeds.

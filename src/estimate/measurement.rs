@@ -129,10 +129,7 @@ impl Inference {
     /// [`Error::Numeric`] if the facets are not finite.
     pub fn measure(&self, facets: &Facets, data: &FacetData, prior: &Prior) -> Result<Measurement> {
         let start = self.start.as_deref();
-        let ideal = || match self.lights.as_slice() {
-            [] => map::estimate(data, prior, start),
-            lights => light::estimate(data, lights, prior, start),
-        };
+        let ideal = || Ok(map::estimate_in((data, &self.lights), prior, start, None)?.0);
         let Some(photograph) = facets.photograph else {
             return self.of_computed(facets, data, prior);
         };
@@ -191,10 +188,8 @@ impl Inference {
     /// The spectrum of a sheet from computed facets.
     fn of_computed(&self, facets: &Facets, data: &FacetData, prior: &Prior) -> Result<Measurement> {
         let start = self.start.as_deref();
-        let (estimate, rival) = match self.lights.as_slice() {
-            [] => map::estimate_in_stated_light(data, prior, start, self.other_lights.as_deref())?,
-            lights => (light::estimate(data, lights, prior, start)?, None),
-        };
+        let others = self.other_lights.as_deref().filter(|_| self.lights.is_empty());
+        let (estimate, rival) = map::estimate_in((data, &self.lights), prior, start, others)?;
         let doubts = self.doubt_of_known().or_else(|| self.doubt_of_light(rival)).into_iter();
         let doubts = doubts.chain(beyond_chance(&estimate, data.size().1)).collect();
         Ok(self.judged(facets, estimate, doubts))

@@ -28,12 +28,30 @@ pub struct Searched<'a> {
     alternatives: Alternatives<'a, 'a>,
 }
 
+/// Facets in a light, of a sheet with or without emission, and their mode under all spectra.
+pub struct Lit<'a> {
+    /// Index of the light.
+    pub light: usize,
+    pub data: FacetData<'a>,
+    pub sorted: Sorted<(), Second>,
+}
+
+impl Lit<'_> {
+    /// True if the sheet emits light.
+    pub fn emits(&self) -> bool {
+        self.data.emission().is_some_and(|emission| emission.origin().is_some())
+    }
+}
+
 impl<'a> Searched<'a> {
-    /// Searches alternatives with their modes under all spectra, those without emission first.
-    pub fn among<H>(all: Vec<(FacetData<'a>, Sorted<H, Second>)>, prior: &Prior) -> Option<(Self, Trace)> {
+    /// Searches alternatives, those without emission first; `None` if there are none, or facets are not finite.
+    pub fn among(all: Vec<Lit<'a>>, prior: &Prior) -> Option<(Self, Trace)> {
+        if all.is_empty() {
+            return None;
+        }
         let all = all.into_iter().enumerate();
         let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
-            all.map(|(n, (data, sorted))| (data, sorted.for_hypothesis(n))).unzip();
+            all.map(|(n, Lit { data, sorted, .. })| (data, sorted.for_hypothesis(n))).unzip();
         sorted.sort_by(Sorted::order);
         let alternatives = Alternatives::of(alternatives.into_iter().map(|data: FacetData<'a>| move || data));
         let mut search = Search::new(&alternatives, prior);

@@ -4,7 +4,7 @@
 //! probability of that spectrum does. Each light is therefore a hypothesis, weighed by its evidence under the
 //! prior on reflectances, and the estimate is the mean over all of them, as over classes of spectra.
 
-mod ideal;
+mod in_order;
 mod known;
 mod known_photograph;
 mod photograph;
@@ -14,7 +14,7 @@ mod stated_photograph;
 
 use std::iter;
 
-pub use ideal::estimate;
+pub(super) use in_order::lights_in_order;
 pub use known::{KnownSheet, Shown};
 pub use known_photograph::ShownScenarios;
 pub use photograph::estimate_photograph;
@@ -101,7 +101,7 @@ impl Candidate {
 
 impl Candidate {
     /// Facets in this light.
-    fn on<'a>(&self, data: &FacetData<'a>) -> FacetData<'a> {
+    pub(super) fn on<'a>(&self, data: &FacetData<'a>) -> FacetData<'a> {
         let lit = data.in_light(&self.camera);
         match self.exposure {
             Some(exposure) => lit.expecting(exposure),
@@ -109,7 +109,7 @@ impl Candidate {
         }
     }
 
-    fn weighed(&self, probability: f64) -> Weighed {
+    pub(super) fn weighed(&self, probability: f64) -> Weighed {
         Weighed { name: self.name.clone(), cct_k: self.cct_k, probability }
     }
 }

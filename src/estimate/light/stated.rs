@@ -11,12 +11,12 @@ use std::sync::OnceLock;
 use super::Candidate;
 use crate::camera::CameraResponse;
 use crate::estimate::data::FacetData;
-use crate::estimate::facets::{Facets, Second};
-use crate::estimate::fluorescence_search::Fluorescing;
+use crate::estimate::facets::Facets;
 use crate::estimate::photograph::priors::Priors;
 use crate::estimate::prior::Prior;
 use crate::estimate::rival::{LN_AHEAD, Rival};
-use crate::estimate::search::{Search, Sorted};
+use crate::estimate::search::Search;
+use crate::estimate::searched::Lit;
 use crate::spectrum::{WavelengthGrid, candidate_lights};
 
 /// A stated light is not questioned if facets, with the noise at which hypotheses are sorted, are no more
@@ -28,9 +28,6 @@ const USUAL: f64 = 0.5;
 const DISTINCT_ODDS: usize = 3;
 /// First one light in this many is tried, as neighbours are similar.
 const STEP: usize = 6;
-
-/// Facets in the stated light, under all spectra as one.
-pub type StatedScene = Sorted<(), Second>;
 
 /// Lights that may be the true one instead, computed on first use.
 #[derive(Debug)]
@@ -61,7 +58,7 @@ impl Others {
 /// `stated`, in which the sheet may fluoresce.
 pub fn rival(
     data: &FacetData,
-    (stated, fluorescing): (&StatedScene, &[Fluorescing]),
+    (Lit { sorted: stated, .. }, fluorescing): (&Lit, &[Lit]),
     others: &Others,
     prior: &Prior,
 ) -> Option<Rival> {
@@ -74,7 +71,7 @@ pub fn rival(
         (facets.reflectance_at(&stated.solution.w), facets.split(&stated.solution.w));
     let score_test = search.score_test(stated)?;
     let least =
-        fluorescing.iter().map(|(_, one)| one.ln_evidence).fold(stated.ln_evidence, f64::max) + LN_AHEAD;
+        fluorescing.iter().map(|one| one.sorted.ln_evidence).fold(stated.ln_evidence, f64::max) + LN_AHEAD;
     let ahead = |light: &Candidate| {
         let lit = data.in_light(&light.camera);
         let alike = seen_alike(&reflectance, &data.scene().facets().sources().first()?.camera, light);
@@ -101,7 +98,7 @@ pub fn rival(
     });
     let by_bands = fluorescing
         .iter()
-        .filter_map(|(emitting, one)| Search::new(emitting, prior).ln_evidence_by_classes(one));
+        .filter_map(|Lit { data, sorted, .. }| Search::new(data, prior).ln_evidence_by_classes(sorted));
     let ln_stated = by_bands.fold(search.ln_evidence_by_classes(stated)?, |sum, own| {
         sum.max(own) + (-(sum - own).abs()).exp().ln_1p()
     });
