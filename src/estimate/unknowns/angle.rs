@@ -1,8 +1,8 @@
 //! The opening angle of the fold.
 
 use super::{
-    Effect, Expectation, Factor, Fitted, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State,
-    Symptom, Unknown, Whose,
+    Expectation, Factor, Fitted, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State, Symptom,
+    Unknown, Whose,
 };
 use crate::error::{Error, Result};
 use crate::estimate::photograph::StatedScene;
@@ -14,22 +14,19 @@ pub static ANGLE: Unknown = Unknown {
     description: "Angle between the panels",
     unit: Some("degrees"),
     flag: &Flag { value: "angle", help: "Angle between the panels" },
-    range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
-    role: Role::Sources { enter },
-    photograph: Some(Effect {
-        whose: Whose::Scene,
-        known: |_| Known::Stated,
-        prior,
-        set: |conditions, value| conditions.angle_deg = value,
-        symptom: Some(Symptom {
-            ideal: |stated| Some(stated.angle_deg),
-            least: 0.4,
-            words: |Fitted { value, sd, .. }, stated| {
-                format!("the fold's angle is {value:.1} ± {sd:.1}°, not {}° as stated", stated.angle_deg)
-            },
-            remedy: "measure the angle again",
-        }),
+    role: Role::Sources { range: f64::NEG_INFINITY..=f64::INFINITY, enter },
+    whose: Whose::Scene,
+    known: |_| Known::Stated,
+    prior,
+    set: |conditions, value| conditions.angle_deg = value,
+    symptom: Some(Symptom {
+        ideal: |stated| Some(stated.angle_deg),
+        least: 0.4,
+        words: |Fitted { value, sd, .. }, stated| {
+            format!("the fold's angle is {value:.1} ± {sd:.1}°, not {}° as stated", stated.angle_deg)
+        },
+        remedy: "measure the angle again",
     }),
 };
 

@@ -1,6 +1,6 @@
 //! Roughness of the sheet below its surface.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Body roughness: spread of the slopes of the body's microfacets (Oren and Nayar's sigma), degrees.
@@ -10,20 +10,17 @@ pub static BODY_ROUGHNESS: Unknown = Unknown {
                   of its facets (Oren and Nayar's sigma)",
     unit: Some("degrees"),
     flag: &AUTO,
-    range: 0.0..=90.0,
     scale: Scale::Positive,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Sheet,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.body_roughness_deg = value,
-        symptom: Some(Symptom {
-            ideal: |_| Some(0.0),
-            least: 10.0,
-            words: |_, _| "the sheet is rough".to_owned(),
-            remedy: "include a colour chart or a white card",
-        }),
+    whose: Whose::Sheet,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.body_roughness_deg = value,
+    symptom: Some(Symptom {
+        ideal: |_| Some(0.0),
+        least: 10.0,
+        words: |_, _| "the sheet is rough".to_owned(),
+        remedy: "include a colour chart or a white card",
     }),
 };
 

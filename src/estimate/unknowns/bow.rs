@@ -1,6 +1,6 @@
 //! Panels that bow.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Turn of both panels over their depth, degrees.
@@ -9,16 +9,13 @@ pub static BOW: Unknown = Unknown {
     description: "Curvature of the panels: angle by which both turn from the crease to the outer side",
     unit: Some("degrees"),
     flag: &AUTO,
-    range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Scene,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.bow_deg = value,
-        symptom: Some(BOWED),
-    }),
+    whose: Whose::Scene,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.bow_deg = value,
+    symptom: Some(BOWED),
 };
 
 /// For both kinds of bow.

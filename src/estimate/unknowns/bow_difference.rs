@@ -1,7 +1,7 @@
 //! Panels that bow differently.
 
 use super::bow::BOWED;
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Turn of panel 0 beyond the mean of both, degrees.
@@ -10,16 +10,13 @@ pub static BOW_DIFFERENCE: Unknown = Unknown {
     description: "Angle by which panel 0 turns more than the mean of both",
     unit: Some("degrees"),
     flag: &AUTO,
-    range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Fold,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.bow_difference_deg = value,
-        symptom: Some(BOWED),
-    }),
+    whose: Whose::Fold,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.bow_difference_deg = value,
+    symptom: Some(BOWED),
 };
 
 fn prior(stated: &StatedScene) -> Option<Expectation> {

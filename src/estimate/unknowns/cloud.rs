@@ -1,6 +1,6 @@
 //! Cloudiness of the sky.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Share of the sky's light with the distribution of an overcast sky; the rest has that of a clear one.
@@ -9,16 +9,13 @@ pub static CLOUD: Unknown = Unknown {
     description: "Share of the sky's light that is distributed as that of an overcast sky",
     unit: None,
     flag: &AUTO,
-    range: 0.0..=1.0,
     scale: Scale::Linear,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Light,
-        known: |_| Known::OfImperfection,
-        prior,
-        set: |conditions, value| conditions.cloud = value.clamp(0.0, 1.0),
-        symptom: None,
-    }),
+    whose: Whose::Light,
+    known: |_| Known::OfImperfection,
+    prior,
+    set: |conditions, value| conditions.cloud = value.clamp(0.0, 1.0),
+    symptom: None,
 };
 
 fn prior(stated: &StatedScene) -> Option<Expectation> {

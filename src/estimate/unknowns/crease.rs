@@ -1,6 +1,6 @@
 //! A crease that is round.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Radius of the rounded crease, in panel depths.
@@ -9,20 +9,17 @@ pub static CREASE: Unknown = Unknown {
     description: "Radius of the rounded crease, in depths of the panels",
     unit: None,
     flag: &AUTO,
-    range: 0.0..=f64::INFINITY,
     scale: Scale::Positive,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Scene,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.crease_radius = value,
-        symptom: Some(Symptom {
-            ideal: |_| Some(0.0),
-            least: 0.008,
-            words: |_, _| "the crease is rounded".to_owned(),
-            remedy: "fold the sheet over a sharp edge",
-        }),
+    whose: Whose::Scene,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.crease_radius = value,
+    symptom: Some(Symptom {
+        ideal: |_| Some(0.0),
+        least: 0.008,
+        words: |_, _| "the crease is rounded".to_owned(),
+        remedy: "fold the sheet over a sharp edge",
     }),
 };
 

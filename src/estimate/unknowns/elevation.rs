@@ -1,6 +1,6 @@
 //! Elevation above the horizon of the direction in which the fold opens.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Angle between the horizon and the direction in which the fold opens, degrees.
@@ -9,16 +9,13 @@ pub static ELEVATION: Unknown = Unknown {
     description: "Angle above the horizon of the direction into which the fold opens",
     unit: Some("degrees"),
     flag: &AUTO,
-    range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Light,
-        known: |stated| if stated.elevation_deg().is_some() { Known::Stated } else { Known::OfImperfection },
-        prior,
-        set: |conditions, value| conditions.elevation_deg = value,
-        symptom: None,
-    }),
+    whose: Whose::Light,
+    known: |stated| if stated.elevation_deg().is_some() { Known::Stated } else { Known::OfImperfection },
+    prior,
+    set: |conditions, value| conditions.elevation_deg = value,
+    symptom: None,
 };
 
 /// A stated zenith is as accurate as the position of the sun across the crease.

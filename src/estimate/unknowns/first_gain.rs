@@ -1,6 +1,6 @@
 //! Gain error of the first channel.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Normal, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Gain of the first channel relative to the second, compared with the stated one.
@@ -9,16 +9,13 @@ pub static FIRST_GAIN: Unknown = Unknown {
     description: "Ratio of the first channel's gain to the second's, relative to the stated ratio",
     unit: None,
     flag: &AUTO,
-    range: 0.0..=f64::INFINITY,
     scale: Scale::Logarithm,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Lens,
-        known: |_| Known::Nominal,
-        prior,
-        set: |conditions, value| conditions.gains[0] = value,
-        symptom: Some(UNBALANCED),
-    }),
+    whose: Whose::Lens,
+    known: |_| Known::Nominal,
+    prior,
+    set: |conditions, value| conditions.gains[0] = value,
+    symptom: Some(UNBALANCED),
 };
 
 /// For both gains.

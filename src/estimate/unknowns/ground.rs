@@ -1,6 +1,6 @@
 //! Light from the ground below the sheet.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Reflectance of the ground at 550 nm.
@@ -9,20 +9,17 @@ pub static GROUND: Unknown = Unknown {
     description: "Reflectance of the ground at 550 nm",
     unit: None,
     flag: &AUTO,
-    range: 0.0..=1.0,
     scale: Scale::Positive,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Light,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.ground = value,
-        symptom: Some(Symptom {
-            ideal: |_| Some(0.0),
-            least: 0.2,
-            words: |_, _| "the ground reflects light into the fold".to_owned(),
-            remedy: "lay a black cloth around it",
-        }),
+    whose: Whose::Light,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.ground = value,
+    symptom: Some(Symptom {
+        ideal: |_| Some(0.0),
+        least: 0.2,
+        words: |_, _| "the ground reflects light into the fold".to_owned(),
+        remedy: "lay a black cloth around it",
     }),
 };
 

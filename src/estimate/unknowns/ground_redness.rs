@@ -1,6 +1,6 @@
 //! Colour of the ground below the sheet.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm.
@@ -9,16 +9,13 @@ pub static GROUND_REDNESS: Unknown = Unknown {
     description: "Rise of the reflectance of the ground from 550 nm to 700 nm, relative to that at 550 nm",
     unit: None,
     flag: &AUTO,
-    range: -1.0..=2.0,
     scale: Scale::Linear,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Light,
-        known: |_| Known::OfImperfection,
-        prior,
-        set: |conditions, value| conditions.ground_redness = value,
-        symptom: None,
-    }),
+    whose: Whose::Light,
+    known: |_| Known::OfImperfection,
+    prior,
+    set: |conditions, value| conditions.ground_redness = value,
+    symptom: None,
 };
 
 fn prior(stated: &StatedScene) -> Option<Expectation> {

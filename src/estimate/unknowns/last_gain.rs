@@ -1,7 +1,7 @@
 //! Gain error of the last channel.
 
 use super::first_gain::UNBALANCED;
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Gain of the last channel relative to the second, compared with the stated one.
@@ -10,16 +10,13 @@ pub static LAST_GAIN: Unknown = Unknown {
     description: "Ratio of the last channel's gain to the second's, relative to the stated ratio",
     unit: None,
     flag: &AUTO,
-    range: 0.0..=f64::INFINITY,
     scale: Scale::Logarithm,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Lens,
-        known: |_| Known::Nominal,
-        prior,
-        set: |conditions, value| conditions.gains[1] = value,
-        symptom: Some(UNBALANCED),
-    }),
+    whose: Whose::Lens,
+    known: |_| Known::Nominal,
+    prior,
+    set: |conditions, value| conditions.gains[1] = value,
+    symptom: Some(UNBALANCED),
 };
 
 fn prior(stated: &StatedScene) -> Option<Expectation> {

@@ -66,7 +66,7 @@ use specular_weight::SPECULAR_WEIGHT;
 use sun::SUN;
 pub use sun_colour::SUN_COLOUR;
 pub use tilt::TILT;
-pub use unknown::{AUTO, Effect, Fitted, Flag, Known, NONE, Role, Symptom, Unknown, Whose};
+pub use unknown::{AUTO, Fitted, Flag, Known, NONE, Role, Symptom, Unknown, Whose};
 use veiling_glare::VEILING_GLARE;
 use vignetting::VIGNETTING;
 

@@ -1,6 +1,6 @@
 //! Upright fibres on the sheet.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Sheen: brightening of the body at grazing incidence or viewing by upright fibres, as in felt.
@@ -10,20 +10,17 @@ pub static SHEEN: Unknown = Unknown {
                   as in felt",
     unit: None,
     flag: &AUTO,
-    range: 0.0..=f64::INFINITY,
     scale: Scale::Positive,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Sheet,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.sheen = value,
-        symptom: Some(Symptom {
-            ideal: |_| Some(0.0),
-            least: 0.15,
-            words: |_, _| "fibres stand up from the sheet".to_owned(),
-            remedy: "include a colour chart or a white card",
-        }),
+    whose: Whose::Sheet,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.sheen = value,
+    symptom: Some(Symptom {
+        ideal: |_| Some(0.0),
+        least: 0.15,
+        words: |_, _| "fibres stand up from the sheet".to_owned(),
+        remedy: "include a colour chart or a white card",
     }),
 };
 

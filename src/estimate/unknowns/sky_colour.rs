@@ -1,7 +1,7 @@
 //! The colour of the sky: daylight of unknown temperature.
 
 use super::{
-    Effect, Expectation, Factor, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Unknown, Whose,
+    Expectation, Factor, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Unknown, Whose,
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -15,16 +15,13 @@ pub static SKY_COLOUR: Unknown = Unknown {
     description: "Correlated colour temperature of the sky",
     unit: Some("K"),
     flag: SKY.flag,
-    range: 1e3..=1e5,
     scale: Scale::Reciprocal,
-    role: Role::Sources { enter },
-    photograph: Some(Effect {
-        whose: Whose::Light,
-        known: |_| Known::OfImperfection,
-        prior,
-        set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
-        symptom: None,
-    }),
+    role: Role::Sources { range: 1e3..=1e5, enter },
+    whose: Whose::Light,
+    known: |_| Known::OfImperfection,
+    prior,
+    set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
+    symptom: None,
 };
 
 /// Temperatures of the skies between which others are interpolated, K.

@@ -1,6 +1,6 @@
 //! Width of the sheet's specular reflection.
 
-use super::{AUTO, Effect, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Normal, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Specular roughness: GGX's alpha.
@@ -9,16 +9,13 @@ pub static SPECULAR_ROUGHNESS: Unknown = Unknown {
     description: "Roughness of the surface: GGX's alpha",
     unit: None,
     flag: &AUTO,
-    range: 0.05..=1.0,
     scale: Scale::Logarithm,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Sheet,
-        known: |_| Known::OfImperfection,
-        prior,
-        set: |conditions, value| conditions.specular_roughness = value,
-        symptom: None,
-    }),
+    whose: Whose::Sheet,
+    known: |_| Known::OfImperfection,
+    prior,
+    set: |conditions, value| conditions.specular_roughness = value,
+    symptom: None,
 };
 
 fn prior(stated: &StatedScene) -> Option<Expectation> {

@@ -1,6 +1,6 @@
 //! Specular reflection by the surface of the sheet.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Specular weight: strength of the surface's reflection, relative to a bare surface of refractive index 1.5.
@@ -10,20 +10,17 @@ pub static SPECULAR_WEIGHT: Unknown = Unknown {
                   of refractive index 1.5 being 1",
     unit: None,
     flag: &AUTO,
-    range: 0.0..=f64::INFINITY,
     scale: Scale::Positive,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Sheet,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.specular_weight = value,
-        symptom: Some(Symptom {
-            ideal: |_| Some(0.0),
-            least: 0.15,
-            words: |_, _| "the sheet is glossy".to_owned(),
-            remedy: "turn fold and camera so that no light is mirrored into the picture",
-        }),
+    whose: Whose::Sheet,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.specular_weight = value,
+    symptom: Some(Symptom {
+        ideal: |_| Some(0.0),
+        least: 0.15,
+        words: |_, _| "the sheet is glossy".to_owned(),
+        remedy: "turn fold and camera so that no light is mirrored into the picture",
     }),
 };
 

@@ -1,6 +1,6 @@
 //! Sunlight that passes clouds or an object casting a shadow.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Role, Scale, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Irradiance from the hidden sun on a plane facing it, relative to the sky's on an open horizontal plane.
@@ -10,16 +10,13 @@ pub static SUN: Unknown = Unknown {
                   gives an unobstructed horizontal plane",
     unit: None,
     flag: &AUTO,
-    range: 0.0..=f64::INFINITY,
     scale: Scale::Positive,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Scene,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.sun = value,
-        symptom: None,
-    }),
+    whose: Whose::Scene,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.sun = value,
+    symptom: None,
 };
 
 fn prior(stated: &StatedScene) -> Option<Expectation> {

@@ -1,8 +1,8 @@
 //! The colour of the sun: daylight of unknown temperature.
 
 use super::{
-    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom,
-    Unknown, Whose,
+    Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Unknown,
+    Whose,
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -16,20 +16,17 @@ pub static SUN_COLOUR: Unknown = Unknown {
     description: "Correlated colour temperature of the sun",
     unit: Some("K"),
     flag: &Flag { value: "daylight", help: "Colour of the sun, where the illuminant is daylight" },
-    range: 1e3..=1e5,
     scale: Scale::Reciprocal,
-    role: Role::Sources { enter },
-    photograph: Some(Effect {
-        whose: Whose::Light,
-        known: |stated| if stated.is_daylight_assumed { Known::Usual } else { Known::Nominal },
-        prior,
-        set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
-        symptom: Some(Symptom {
-            ideal: |stated| stated.daylight.map(|daylight| 1e6 / daylight.mired()),
-            least: 400.0,
-            words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
-            remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
-        }),
+    role: Role::Sources { range: 1e3..=1e5, enter },
+    whose: Whose::Light,
+    known: |stated| if stated.is_daylight_assumed { Known::Usual } else { Known::Nominal },
+    prior,
+    set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
+    symptom: Some(Symptom {
+        ideal: |stated| stated.daylight.map(|daylight| 1e6 / daylight.mired()),
+        least: 400.0,
+        words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
+        remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
     }),
 };
 

@@ -1,8 +1,8 @@
 //! Position of the sun across the crease.
 
 use super::{
-    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom,
-    Unknown, Whose,
+    Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Unknown,
+    Whose,
 };
 use crate::error::Result;
 use crate::estimate::photograph::StatedScene;
@@ -13,20 +13,17 @@ pub static TILT: Unknown = Unknown {
     description: "Angle of the sun off the plane that halves the fold",
     unit: Some("degrees"),
     flag: &Flag { value: "tilt", help: "Angle of the sun off the bisecting plane" },
-    range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
-    role: Role::Sources { enter },
-    photograph: Some(Effect {
-        whose: Whose::Fold,
-        known: |_| Known::Stated,
-        prior,
-        set: |conditions, value| conditions.tilt_deg = value,
-        symptom: Some(Symptom {
-            ideal: |stated| Some(stated.tilt_deg),
-            least: 1.0,
-            words: |_, _| "the sun stood elsewhere than stated".to_owned(),
-            remedy: "turn the fold until both panels are equally bright, or give vkernel --tilt-deg",
-        }),
+    role: Role::Sources { range: f64::NEG_INFINITY..=f64::INFINITY, enter },
+    whose: Whose::Fold,
+    known: |_| Known::Stated,
+    prior,
+    set: |conditions, value| conditions.tilt_deg = value,
+    symptom: Some(Symptom {
+        ideal: |stated| Some(stated.tilt_deg),
+        least: 1.0,
+        words: |_, _| "the sun stood elsewhere than stated".to_owned(),
+        remedy: "turn the fold until both panels are equally bright, or give vkernel --tilt-deg",
     }),
 };
 

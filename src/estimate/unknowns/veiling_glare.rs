@@ -1,6 +1,6 @@
 //! A lens that spreads light over the picture.
 
-use super::{AUTO, Effect, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
+use super::{AUTO, Expectation, Known, Role, Scale, Symptom, Unknown, Whose};
 use crate::estimate::photograph::StatedScene;
 
 /// Veiling glare: share of the picture's light that the lens spreads evenly over it.
@@ -9,20 +9,17 @@ pub static VEILING_GLARE: Unknown = Unknown {
     description: "Veiling glare: share of the picture's light that the lens spreads over all of it",
     unit: None,
     flag: &AUTO,
-    range: 0.0..=1.0,
     scale: Scale::Positive,
     role: Role::Photograph,
-    photograph: Some(Effect {
-        whose: Whose::Lens,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.veiling_glare = value,
-        symptom: Some(Symptom {
-            ideal: |_| Some(0.0),
-            least: 0.01,
-            words: |_, _| "stray light lies over the picture".to_owned(),
-            remedy: "shade the lens",
-        }),
+    whose: Whose::Lens,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.veiling_glare = value,
+    symptom: Some(Symptom {
+        ideal: |_| Some(0.0),
+        least: 0.01,
+        words: |_, _| "stray light lies over the picture".to_owned(),
+        remedy: "shade the lens",
     }),
 };
 

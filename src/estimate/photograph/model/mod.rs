@@ -151,7 +151,7 @@ impl<'a> PhotographModel<'a> {
         };
         let [first, ..] = self.layout();
         for (n, number) in self.numbers.iter().enumerate().filter(|(_, number)| number.matters()) {
-            (number.effect.set)(&mut conditions, number.at(w[first + n]).0);
+            (number.unknown.set)(&mut conditions, number.at(w[first + n]).0);
         }
         conditions
     }
