@@ -1,11 +1,9 @@
 //! The opening angle of the fold.
 
 use super::{
-    Expectation, Factor, Fitted, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State, Symptom,
-    Unknown, Whose,
+    Factor, Fitted, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State, Symptom, Unknown, Whose,
 };
 use crate::error::{Error, Result};
-use crate::estimate::photograph::StatedScene;
 use crate::kernel::mesh::respond;
 
 /// Angle between the panels, degrees. It takes two more solutions of the interreflections.
@@ -18,7 +16,7 @@ pub static ANGLE: Unknown = Unknown {
     role: Role::Sources { range: f64::NEG_INFINITY..=f64::INFINITY, enter },
     whose: Whose::Scene,
     known: |_| Known::Stated,
-    prior,
+    prior: |stated| Some(Normal { mean: stated.angle_deg, sd: stated.angle_sd_deg }.into()),
     set: |conditions, value| conditions.angle_deg = value,
     symptom: Some(Symptom {
         ideal: |stated| Some(stated.angle_deg),
@@ -56,8 +54,4 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     };
     sources.states = nodes.iter().enumerate().map(state).collect::<Result<_>>()?;
     Ok(())
-}
-
-fn prior(stated: &StatedScene) -> Option<Expectation> {
-    Some(Normal { mean: stated.angle_deg, sd: stated.angle_sd_deg }.into())
 }

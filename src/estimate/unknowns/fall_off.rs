@@ -1,9 +1,34 @@
-//! Light that falls off along the crease.
+//! Light that falls off over the fold, away from the crease and along it.
 
-use super::{AUTO, Expectation, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
-use crate::estimate::photograph::StatedScene;
+use super::{AUTO, Fitted, Known, Role, Scale, Symptom, Unknown, Whose};
 
-/// Loss of light from end 0 to end 1 of the crease, relative to its middle; negative for a gain.
+pub static NEARNESS: Unknown = Unknown {
+    name: "nearness",
+    description: "Depth of a panel divided by the distance of the lamp that lights it; 0 for the sun",
+    unit: None,
+    flag: &AUTO,
+    scale: Scale::Linear,
+    role: Role::Photograph,
+    whose: Whose::Fold,
+    known: |_| Known::Imperfection,
+    prior: |stated| Some(stated.priors.unevenness().into()),
+    set: |conditions, value| conditions.nearness = value,
+    symptom: Some(Symptom {
+        ideal: |_| Some(0.0),
+        least: 0.02,
+        words: |Fitted { value, .. }, _| {
+            let depths = value.abs().recip();
+            let away = match depths.round() > 1.0 {
+                true => format!("{depths:.0} panel depths away"),
+                false => "no further than a panel's depth away".to_owned(),
+            };
+            format!("light falls off over the panels, like that of a lamp {away}")
+        },
+        remedy: "photograph the sheet in the sun, or move the lamp further away",
+    }),
+};
+
+/// Negative if end 1 gets more light than end 0.
 pub static FALL_OFF: Unknown = Unknown {
     name: "fall_off",
     description: "Loss of light along the crease, from end 0 to end 1, relative to the middle",
@@ -13,7 +38,7 @@ pub static FALL_OFF: Unknown = Unknown {
     role: Role::Photograph,
     whose: Whose::Lens,
     known: |_| Known::Imperfection,
-    prior,
+    prior: |stated| Some(stated.priors.unevenness().into()),
     set: |conditions, value| conditions.fall_off = value,
     symptom: Some(Symptom {
         ideal: |_| Some(0.0),
@@ -29,7 +54,3 @@ pub static FALL_OFF: Unknown = Unknown {
                  or move the lamp further away",
     }),
 };
-
-fn prior(stated: &StatedScene) -> Option<Expectation> {
-    Some(stated.priors.unevenness().into())
-}

@@ -1,11 +1,7 @@
 //! Position of the sun across the crease.
 
-use super::{
-    Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Unknown,
-    Whose,
-};
+use super::{Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Unknown, Whose};
 use crate::error::Result;
-use crate::estimate::photograph::StatedScene;
 
 /// Angle of the sun off the bisecting plane, degrees.
 pub static TILT: Unknown = Unknown {
@@ -17,7 +13,7 @@ pub static TILT: Unknown = Unknown {
     role: Role::Sources { range: f64::NEG_INFINITY..=f64::INFINITY, enter },
     whose: Whose::Fold,
     known: |_| Known::Stated,
-    prior,
+    prior: |stated| Some(Normal { mean: stated.tilt_deg, sd: stated.priors.tilt_sd_deg }.into()),
     set: |conditions, value| conditions.tilt_deg = value,
     symptom: Some(Symptom {
         ideal: |stated| Some(stated.tilt_deg),
@@ -39,8 +35,4 @@ fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
         Lamp::EvenSun | Lamp::OddSun | Lamp::Sky { .. } => vec![source],
     });
     Ok(())
-}
-
-fn prior(stated: &StatedScene) -> Option<Expectation> {
-    Some(Normal { mean: stated.tilt_deg, sd: stated.priors.tilt_sd_deg }.into())
 }
