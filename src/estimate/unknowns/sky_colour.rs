@@ -1,8 +1,6 @@
 //! The colour of the sky: daylight of unknown temperature.
 
-use super::{
-    Expectation, Factor, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Unknown, Whose,
-};
+use super::{Expectation, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Unknown, Whose};
 use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::estimate::photograph::StatedScene;
@@ -32,12 +30,7 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     let nodes = SKIES_K.map(|cct_k| 1e6 / f64::from(cct_k));
     let skies: Vec<_> = SKIES_K.iter().map(|cct_k| daylight(scene, *cct_k)).collect::<Result<_>>()?;
     sources.replace(|source| match source.lamp {
-        Lamp::Sky { .. } => {
-            let of = |(at, sky): (usize, &CameraResponse)| {
-                source.seen_by(sky.clone()).with(SKY_COLOUR.name, Factor::Node { nodes, at })
-            };
-            skies.iter().enumerate().map(of).collect()
-        }
+        Lamp::Sky { .. } => source.in_colours(SKY_COLOUR.name, nodes, &skies),
         Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => vec![source],
     });
     Ok(())

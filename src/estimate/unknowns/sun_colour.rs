@@ -1,8 +1,7 @@
 //! The colour of the sun: daylight of unknown temperature.
 
 use super::{
-    Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Unknown,
-    Whose,
+    Expectation, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Unknown, Whose,
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -49,12 +48,7 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     let suns: Vec<_> = nodes.iter().map(|mired| sun(scene, nominal, *mired)).collect::<Result<_>>()?;
     sources.replace(|source| match source.lamp {
         Lamp::Sky { .. } => vec![source],
-        Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => {
-            let of = |(at, sun): (usize, &CameraResponse)| {
-                source.seen_by(sun.clone()).with(SUN_COLOUR.name, Factor::Node { nodes, at })
-            };
-            suns.iter().enumerate().map(of).collect()
-        }
+        Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => source.in_colours(SUN_COLOUR.name, nodes, &suns),
     });
     Ok(())
 }

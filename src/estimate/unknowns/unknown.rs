@@ -114,11 +114,12 @@ pub struct Flag {
 
 /// Role of an unknown in the model.
 pub enum Role {
-    /// The model is proportional to it: every spectrum tried has its best value, and no search is needed.
+    /// The model is proportional to it: its best value for each spectrum tried is computed, not searched for.
     Exposure,
     /// It does not occur in an ideal fold.
     Photograph,
-    /// It changes the sources.
+    /// It changes the sources. Their amounts are functions of the number on its scale, so the unit of its
+    /// prior is 1.
     Sources {
         /// Smallest and largest possible value.
         range: RangeInclusive<f64>,
