@@ -137,12 +137,12 @@ impl<'a> Model for PhotographModel<'a> {
         for (n, Number { unknown, .. }) in (scene..).zip(&self.numbers).filter(telling) {
             let mut shifted = w.clone();
             shifted[n] += STEP;
-            let beyond = if unknown.is_of_sheet() {
-                Cow::Owned(self.beyond(&shifted))
-            } else {
-                Cow::Borrowed(&beyond)
+            let conditions = self.conditions(&shifted);
+            let beyond = match unknown.is_of_sheet() {
+                true => Cow::Owned(self.departure(&shifted, &conditions).radiance),
+                false => Cow::Borrowed(&beyond),
             };
-            let moved = predictor.shifted(&here, &self.conditions(&shifted), &beyond, unknown.whose);
+            let moved = predictor.shifted(&here, &conditions, &beyond, unknown.whose);
             jacobian.column_mut(n).copy_from(&(in_order(&(moved - values)) / STEP));
         }
         // variations of the sheet and errors of the sensitivities enter linearly
