@@ -36,7 +36,7 @@ pub fn of_unknowns(fitted: &[Fitted], stated: &StatedScene, hypothesis: Hypothes
     let numbers = Number::all(stated, hypothesis);
     let found = |one: &Fitted| {
         let number = numbers.iter().find(|number| number.unknown == one.unknown)?;
-        let (symptom, from_usual) = (number.effect.symptom.as_ref()?, number.normal(one.value).abs());
+        let (symptom, from_usual) = (one.unknown.symptom.as_ref()?, number.normal(one.value).abs());
         let ideal = (symptom.ideal)(stated)?;
         let off = (one.value - ideal).abs();
         let least = if one.unknown.scale == Scale::Logarithm { symptom.least * ideal } else { symptom.least };

@@ -3,15 +3,13 @@
 use super::conditions::StatedScene;
 use super::day::Day;
 use super::hypotheses::{Hypothesis, Mistake};
-use crate::estimate::unknowns::{ANGLE, EVEN_SKY, Effect, Expectation, Known, SKY_COLOUR, TABLE, Unknown};
+use crate::estimate::unknowns::{ANGLE, EVEN_SKY, Expectation, Known, SKY_COLOUR, TABLE, Unknown};
 
 /// An unknown with its prior in a photograph of some imperfection.
 #[derive(Clone, Copy)]
 pub struct Number {
     /// The unknown.
     pub unknown: &'static Unknown,
-    /// Its effect.
-    pub effect: &'static Effect,
     prior: Expectation,
     matters: bool,
 }
@@ -21,11 +19,10 @@ impl Number {
     #[must_use]
     pub fn all(stated: &StatedScene, Hypothesis { imperfection, mistake, .. }: Hypothesis) -> Vec<Self> {
         let number = |unknown: &&'static Unknown| {
-            let effect = unknown.photograph.as_ref()?;
-            let (own, known) = ((effect.prior)(stated), (effect.known)(stated));
+            let (own, known) = ((unknown.prior)(stated), (unknown.known)(stated));
             // unknowns that do not occur on this day keep a place, so that a search can start from another
             // day
-            let of_day = |day: &Day| (effect.prior)(&StatedScene { day: *day, ..*stated });
+            let of_day = |day: &Day| (unknown.prior)(&StatedScene { day: *day, ..*stated });
             let prior = own.or_else(|| Day::ALL.iter().find_map(of_day))?;
             // in an ideal fold only what is mistaken is unknown
             let matters = own.is_some()
@@ -37,7 +34,7 @@ impl Number {
                     Some(Mistake::Exposure | Mistake::NoFold) | None => false,
                 };
             let prior = prior.with_tail(known.tail(stated.priors));
-            Some(Self { unknown, effect, prior, matters })
+            Some(Self { unknown, prior, matters })
         };
         TABLE.iter().filter_map(number).collect()
     }

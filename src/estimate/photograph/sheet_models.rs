@@ -133,9 +133,11 @@ impl<'a> SheetModels<'a> {
             let share = shares[0][n / 9] * shares[1][n / 3 % 3] * shares[2][n % 3];
             sum.add(share, departure, [1.0, 0.0]);
         }
-        let ([a, b], sheen) = (SHEEN, conditions.sheen);
-        sum.add(sheen * (sheen - b) / (a * (a - b)), &self.sheets.sheen[0], [0.0, 0.0]);
-        sum.add(sheen * (sheen - a) / (b * (b - a)), &self.sheets.sheen[1], [0.0, 0.0]);
+        let [low, high] = SHEEN;
+        let [_, shares @ ..] = lagrange([0.0, low, high], conditions.sheen);
+        for (share, change) in shares.into_iter().zip(&self.sheets.sheen) {
+            sum.add(share, change, [0.0, 0.0]);
+        }
         sum
     }
 }

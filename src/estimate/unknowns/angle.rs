@@ -1,11 +1,9 @@
 //! The opening angle of the fold.
 
 use super::{
-    Effect, Expectation, Factor, Fitted, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State,
-    Symptom, Unknown, Whose,
+    Factor, Fitted, Flag, FoldInLight, Known, Normal, Role, Scale, Sources, State, Symptom, Unknown, Whose,
 };
 use crate::error::{Error, Result};
-use crate::estimate::photograph::StatedScene;
 use crate::kernel::mesh::respond;
 
 /// Angle between the panels, degrees. It takes two more solutions of the interreflections.
@@ -14,22 +12,19 @@ pub static ANGLE: Unknown = Unknown {
     description: "Angle between the panels",
     unit: Some("degrees"),
     flag: &Flag { value: "angle", help: "Angle between the panels" },
-    range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
-    role: Role::Sources { enter },
-    photograph: Some(Effect {
-        whose: Whose::Scene,
-        known: |_| Known::Stated,
-        prior,
-        set: |conditions, value| conditions.angle_deg = value,
-        symptom: Some(Symptom {
-            ideal: |stated| Some(stated.angle_deg),
-            least: 0.4,
-            words: |Fitted { value, sd, .. }, stated| {
-                format!("the fold's angle is {value:.1} ± {sd:.1}°, not {}° as stated", stated.angle_deg)
-            },
-            remedy: "measure the angle again",
-        }),
+    role: Role::Sources { range: f64::NEG_INFINITY..=f64::INFINITY, enter },
+    whose: Whose::Scene,
+    known: |_| Known::Stated,
+    prior: |stated| Some(Normal { mean: stated.angle_deg, sd: stated.angle_sd_deg }.into()),
+    set: |conditions, value| conditions.angle_deg = value,
+    symptom: Some(Symptom {
+        ideal: |stated| Some(stated.angle_deg),
+        least: 0.4,
+        words: |Fitted { value, sd, .. }, stated| {
+            format!("the fold's angle is {value:.1} ± {sd:.1}°, not {}° as stated", stated.angle_deg)
+        },
+        remedy: "measure the angle again",
     }),
 };
 
@@ -59,8 +54,4 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     };
     sources.states = nodes.iter().enumerate().map(state).collect::<Result<_>>()?;
     Ok(())
-}
-
-fn prior(stated: &StatedScene) -> Option<Expectation> {
-    Some(Normal { mean: stated.angle_deg, sd: stated.angle_sd_deg }.into())
 }

@@ -1,7 +1,7 @@
 //! A fold in its light, as a model with sources whose amounts depend on unknowns.
 
 use super::sources::{Factors, FoldInLight, Sources};
-use super::{Expectation, Expected, Factor, Flag, Role, SceneModel, Unknown};
+use super::{Expected, Factor, Flag, Role, SceneModel, Unknown};
 use crate::error::{Error, Result};
 use crate::forward::FacetModel;
 
@@ -14,10 +14,8 @@ impl SceneModel {
     pub fn of_fold(scene: &FoldInLight, fit: &[&'static Unknown]) -> Result<Self> {
         let asked = || fit.iter().filter(|unknown| matches!(unknown.role, Role::Sources { .. }));
         let expected = |unknown: &&'static Unknown| {
-            let effect = unknown.photograph.as_ref()?;
-            let tail = (effect.known)(&scene.stated).tail(scene.stated.priors);
-            let prior = Expectation::from((effect.prior)(&scene.stated)?.normal).with_tail(tail);
-            Some(Expected { unknown, prior })
+            let tail = (unknown.known)(&scene.stated).tail(scene.stated.priors);
+            Some(Expected { unknown, prior: (unknown.prior)(&scene.stated)?.with_tail(tail) })
         };
         let unknowns: Vec<Expected> = asked().filter_map(expected).collect();
         let is_open = |flag: &Flag| unknowns.iter().any(|one| one.unknown.flag == flag);
@@ -28,7 +26,7 @@ impl SceneModel {
         }
         let mut sources = Sources::of(scene);
         for Expected { unknown, prior } in &unknowns {
-            if let Role::Sources { enter } = unknown.role {
+            if let Role::Sources { enter, .. } = unknown.role {
                 enter(scene, prior.normal, &mut sources)?;
             }
         }

@@ -1,8 +1,11 @@
-//! Parameters of the scene that are fitted along with the spectrum, one file each, listed in [`TABLE`].
+//! Parameters of the scene that are fitted along with the spectrum, listed in [`TABLE`].
 //!
-//! A new parameter is a file with an [`Unknown`] and a row of the table: without one of its parts it does not
-//! compile, without the row it does not pass the lints. The values of `vestimate --fit` and their help, the
-//! records with their schema, residuals and messages follow from the two.
+//! Those that an ideal fold has too have a file each; those that occur only in photographs of real sheets
+//! share one for each part of the scene.
+//!
+//! A new parameter is an [`Unknown`] and a row of the table: without one of its parts it does not compile,
+//! without the row it does not pass the lints. The values of `vestimate --fit` and their help, the records
+//! with their schema, residuals and messages follow from the two.
 //!
 //! Facets are sums over sources (a lamp on a fold). An unknown changes the amounts of sources ([`Factor`]) or
 //! replaces some sources by others ([`Sources`]), so a source's amount is a product of one function of each
@@ -10,65 +13,38 @@
 //! sources.
 
 mod angle;
-mod body_roughness;
-mod bow;
-mod bow_difference;
-mod cloud;
-mod crease;
-mod elevation;
-mod even_sky;
 mod exposure;
 mod factor;
 mod fall_off;
-mod first_gain;
 mod fold_model;
-mod ground;
-mod ground_redness;
-mod last_gain;
-mod nearness;
+mod lens;
 mod scene_model;
-mod sheen;
+mod shape;
+mod sheet;
 mod sky;
 mod sky_colour;
 mod sources;
-mod specular_roughness;
-mod specular_weight;
-mod sun;
 mod sun_colour;
+mod surroundings;
 mod tilt;
 mod unknown;
-mod veiling_glare;
-mod vignetting;
 
 pub use angle::ANGLE;
-use body_roughness::BODY_ROUGHNESS;
-use bow::BOW;
-use bow_difference::BOW_DIFFERENCE;
-use cloud::CLOUD;
-use crease::CREASE;
-use elevation::ELEVATION;
-pub use even_sky::EVEN_SKY;
 pub use exposure::EXPOSURE;
 pub use factor::Factor;
-use fall_off::FALL_OFF;
-use first_gain::FIRST_GAIN;
-use ground::GROUND;
-use ground_redness::GROUND_REDNESS;
-use last_gain::LAST_GAIN;
-use nearness::NEARNESS;
+use fall_off::{FALL_OFF, NEARNESS};
+use lens::{FIRST_GAIN, LAST_GAIN, VEILING_GLARE, VIGNETTING};
 pub use scene_model::{Amounts, Expected, SceneModel};
-use sheen::SHEEN;
+use shape::{BOW, BOW_DIFFERENCE, CREASE};
+use sheet::{BODY_ROUGHNESS, SHEEN, SPECULAR_ROUGHNESS, SPECULAR_WEIGHT};
 pub use sky::SKY;
 pub use sky_colour::SKY_COLOUR;
 pub use sources::{FoldInLight, Lamp, Sources, State};
-use specular_roughness::SPECULAR_ROUGHNESS;
-use specular_weight::SPECULAR_WEIGHT;
-use sun::SUN;
 pub use sun_colour::SUN_COLOUR;
+pub use surroundings::EVEN_SKY;
+use surroundings::{CLOUD, ELEVATION, GROUND, GROUND_REDNESS, SUN};
 pub use tilt::TILT;
-pub use unknown::{AUTO, Effect, Fitted, Flag, Known, NONE, Role, Symptom, Unknown, Whose};
-use veiling_glare::VEILING_GLARE;
-use vignetting::VIGNETTING;
+pub use unknown::{AUTO, Fitted, Flag, Known, NONE, Role, Symptom, Unknown, Whose};
 
 pub use super::normal::{Expectation, Normal, Scale};
 

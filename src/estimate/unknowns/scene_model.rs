@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use nalgebra::{DMatrix, DVector};
 
 use super::factor::Jet;
-use super::{Expectation, Factor, Normal, Unknown};
+use super::{Expectation, Factor, Normal, Role, Unknown};
 use crate::camera::CameraResponse;
 use crate::estimate::compress::Reach;
 use crate::estimate::emission::{Backing, Emission};
@@ -30,17 +30,13 @@ impl Expected {
     /// The bound of its range that `value` exceeds, if any.
     #[must_use]
     pub fn bound_of(self, value: f64) -> Option<f64> {
-        let Unknown { range, scale, .. } = self.unknown;
+        let Unknown { role: Role::Sources { range, .. }, scale, .. } = self.unknown else { return None };
         let (least, greatest) = (*range.start(), *range.end());
+        let number = |value| scale.normal(value);
         // a negative reciprocal is beyond the greatest value, not the least
-        let is_beyond = |end: f64, other: f64| {
-            let [end, other, number] = [end, other, value].map(|value| scale.normal(value));
-            if end < other { number < end } else { number > end }
-        };
-        [(least, greatest), (greatest, least)]
-            .into_iter()
-            .find(|(end, other)| is_beyond(*end, *other))
-            .map(|(end, _)| end)
+        let is_rising = number(least) < number(greatest);
+        let (low, high) = if is_rising { (least, greatest) } else { (greatest, least) };
+        if number(value) < number(low) { Some(low) } else { (number(value) > number(high)).then_some(high) }
     }
 }
 

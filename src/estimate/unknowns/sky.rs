@@ -2,7 +2,7 @@
 
 use super::sources::Source;
 use super::{
-    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Unknown, Whose,
+    Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Unknown, Whose,
 };
 use crate::error::{Error, Result};
 use crate::estimate::photograph::StatedScene;
@@ -17,16 +17,13 @@ pub static SKY: Unknown = Unknown {
         value: "sky",
         help: "Amount of skylight, and its colour unless the scene has a sky illuminant",
     },
-    range: 0.0..=f64::INFINITY,
     scale: Scale::Linear,
-    role: Role::Sources { enter },
-    photograph: Some(Effect {
-        whose: Whose::Light,
-        known: |_| Known::Imperfection,
-        prior,
-        set: |conditions, value| conditions.sky = value,
-        symptom: None,
-    }),
+    role: Role::Sources { range: 0.0..=f64::INFINITY, enter },
+    whose: Whose::Light,
+    known: |_| Known::Imperfection,
+    prior,
+    set: |conditions, value| conditions.sky = value,
+    symptom: None,
 };
 
 /// Replaces any sky of the scene by one of irradiance 1 in an unknown amount.

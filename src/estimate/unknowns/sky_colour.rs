@@ -1,8 +1,6 @@
 //! The colour of the sky: daylight of unknown temperature.
 
-use super::{
-    Effect, Expectation, Factor, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Unknown, Whose,
-};
+use super::{Expectation, FoldInLight, Known, Lamp, Normal, Role, SKY, Scale, Sources, Unknown, Whose};
 use crate::camera::CameraResponse;
 use crate::error::Result;
 use crate::estimate::photograph::StatedScene;
@@ -15,16 +13,13 @@ pub static SKY_COLOUR: Unknown = Unknown {
     description: "Correlated colour temperature of the sky",
     unit: Some("K"),
     flag: SKY.flag,
-    range: 1e3..=1e5,
     scale: Scale::Reciprocal,
-    role: Role::Sources { enter },
-    photograph: Some(Effect {
-        whose: Whose::Light,
-        known: |_| Known::OfImperfection,
-        prior,
-        set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
-        symptom: None,
-    }),
+    role: Role::Sources { range: 1e3..=1e5, enter },
+    whose: Whose::Light,
+    known: |_| Known::OfImperfection,
+    prior,
+    set: |conditions, value| conditions.sky_mired = Some(1e6 / value),
+    symptom: None,
 };
 
 /// Temperatures of the skies between which others are interpolated, K.
@@ -35,12 +30,7 @@ fn enter(scene: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
     let nodes = SKIES_K.map(|cct_k| 1e6 / f64::from(cct_k));
     let skies: Vec<_> = SKIES_K.iter().map(|cct_k| daylight(scene, *cct_k)).collect::<Result<_>>()?;
     sources.replace(|source| match source.lamp {
-        Lamp::Sky { .. } => {
-            let of = |(at, sky): (usize, &CameraResponse)| {
-                source.seen_by(sky.clone()).with(SKY_COLOUR.name, Factor::Node { nodes, at })
-            };
-            skies.iter().enumerate().map(of).collect()
-        }
+        Lamp::Sky { .. } => source.in_colours(SKY_COLOUR.name, nodes, &skies),
         Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => vec![source],
     });
     Ok(())

@@ -107,10 +107,20 @@ impl Source {
         Self { lamp, ..self }
     }
 
-    /// The same with another camera response.
+    /// The same in three colours, given the camera's response to each at `nodes` of the `unknown` with that
+    /// name: those in between are interpolated.
     #[must_use]
-    pub fn seen_by(&self, camera: CameraResponse) -> Self {
-        Self { camera, ..self.clone() }
+    pub fn in_colours(
+        &self,
+        unknown: &'static str,
+        nodes: [f64; 3],
+        cameras: &[CameraResponse],
+    ) -> Vec<Self> {
+        let of = |(at, camera): (usize, &CameraResponse)| {
+            let coloured = Self { camera: camera.clone(), ..self.clone() };
+            coloured.with(unknown, Factor::Node { nodes, at })
+        };
+        cameras.iter().enumerate().map(of).collect()
     }
 }
 

@@ -1,8 +1,7 @@
 //! The colour of the sun: daylight of unknown temperature.
 
 use super::{
-    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom,
-    Unknown, Whose,
+    Expectation, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Unknown, Whose,
 };
 use crate::camera::CameraResponse;
 use crate::error::Result;
@@ -16,20 +15,17 @@ pub static SUN_COLOUR: Unknown = Unknown {
     description: "Correlated colour temperature of the sun",
     unit: Some("K"),
     flag: &Flag { value: "daylight", help: "Colour of the sun, where the illuminant is daylight" },
-    range: 1e3..=1e5,
     scale: Scale::Reciprocal,
-    role: Role::Sources { enter },
-    photograph: Some(Effect {
-        whose: Whose::Light,
-        known: |stated| if stated.is_daylight_assumed { Known::Usual } else { Known::Nominal },
-        prior,
-        set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
-        symptom: Some(Symptom {
-            ideal: |stated| stated.daylight.map(|daylight| 1e6 / daylight.mired()),
-            least: 400.0,
-            words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
-            remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
-        }),
+    role: Role::Sources { range: 1e3..=1e5, enter },
+    whose: Whose::Light,
+    known: |stated| if stated.is_daylight_assumed { Known::Usual } else { Known::Nominal },
+    prior,
+    set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
+    symptom: Some(Symptom {
+        ideal: |stated| stated.daylight.map(|daylight| 1e6 / daylight.mired()),
+        least: 400.0,
+        words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
+        remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
     }),
 };
 
@@ -52,12 +48,7 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
     let suns: Vec<_> = nodes.iter().map(|mired| sun(scene, nominal, *mired)).collect::<Result<_>>()?;
     sources.replace(|source| match source.lamp {
         Lamp::Sky { .. } => vec![source],
-        Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => {
-            let of = |(at, sun): (usize, &CameraResponse)| {
-                source.seen_by(sun.clone()).with(SUN_COLOUR.name, Factor::Node { nodes, at })
-            };
-            suns.iter().enumerate().map(of).collect()
-        }
+        Lamp::Sun | Lamp::EvenSun | Lamp::OddSun => source.in_colours(SUN_COLOUR.name, nodes, &suns),
     });
     Ok(())
 }

@@ -1,11 +1,7 @@
 //! Position of the sun across the crease.
 
-use super::{
-    Effect, Expectation, Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom,
-    Unknown, Whose,
-};
+use super::{Factor, Flag, FoldInLight, Known, Lamp, Normal, Role, Scale, Sources, Symptom, Unknown, Whose};
 use crate::error::Result;
-use crate::estimate::photograph::StatedScene;
 
 /// Angle of the sun off the bisecting plane, degrees.
 pub static TILT: Unknown = Unknown {
@@ -13,20 +9,17 @@ pub static TILT: Unknown = Unknown {
     description: "Angle of the sun off the plane that halves the fold",
     unit: Some("degrees"),
     flag: &Flag { value: "tilt", help: "Angle of the sun off the bisecting plane" },
-    range: f64::NEG_INFINITY..=f64::INFINITY,
     scale: Scale::Linear,
-    role: Role::Sources { enter },
-    photograph: Some(Effect {
-        whose: Whose::Fold,
-        known: |_| Known::Stated,
-        prior,
-        set: |conditions, value| conditions.tilt_deg = value,
-        symptom: Some(Symptom {
-            ideal: |stated| Some(stated.tilt_deg),
-            least: 1.0,
-            words: |_, _| "the sun stood elsewhere than stated".to_owned(),
-            remedy: "turn the fold until both panels are equally bright, or give vkernel --tilt-deg",
-        }),
+    role: Role::Sources { range: f64::NEG_INFINITY..=f64::INFINITY, enter },
+    whose: Whose::Fold,
+    known: |_| Known::Stated,
+    prior: |stated| Some(Normal { mean: stated.tilt_deg, sd: stated.priors.tilt_sd_deg }.into()),
+    set: |conditions, value| conditions.tilt_deg = value,
+    symptom: Some(Symptom {
+        ideal: |stated| Some(stated.tilt_deg),
+        least: 1.0,
+        words: |_, _| "the sun stood elsewhere than stated".to_owned(),
+        remedy: "turn the fold until both panels are equally bright, or give vkernel --tilt-deg",
     }),
 };
 
@@ -42,8 +35,4 @@ fn enter(_: &FoldInLight, _: Normal, sources: &mut Sources) -> Result<()> {
         Lamp::EvenSun | Lamp::OddSun | Lamp::Sky { .. } => vec![source],
     });
     Ok(())
-}
-
-fn prior(stated: &StatedScene) -> Option<Expectation> {
-    Some(Normal { mean: stated.tilt_deg, sd: stated.priors.tilt_sd_deg }.into())
 }

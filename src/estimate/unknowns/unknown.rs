@@ -26,25 +26,17 @@ pub struct Unknown {
     pub unit: Option<&'static str>,
     /// The flag that selects it.
     pub flag: &'static Flag,
-    /// Smallest and largest possible value.
-    pub range: RangeInclusive<f64>,
     /// The scale on which its prior is normal.
     pub scale: Scale,
     /// Its role in the model of an ideal fold.
     pub role: Role,
-    /// Its effect in the model of a photograph of a real sheet, and its prior everywhere.
-    pub photograph: Option<Effect>,
-}
-
-/// Effect of an unknown in the model of a photograph.
-pub struct Effect {
-    /// The part of the scene to which it belongs.
+    /// The part of a photograph to which it belongs.
     pub whose: Whose,
     /// Source of prior knowledge.
     pub known: fn(&StatedScene) -> Known,
     /// Its prior; `None` if it does not occur.
     pub prior: fn(&StatedScene) -> Option<Expectation>,
-    /// Sets it in the conditions.
+    /// Sets it in the conditions of a photograph.
     pub set: fn(&mut Conditions, f64),
     /// Report to the user; `None` for what every photograph has.
     pub symptom: Option<Symptom>,
@@ -122,13 +114,15 @@ pub struct Flag {
 
 /// Role of an unknown in the model.
 pub enum Role {
-    /// The model is proportional to it: the best value is a quotient for every spectrum tried, and it has no
-    /// prior.
+    /// The model is proportional to it: its best value for each spectrum tried is computed, not searched for.
     Exposure,
     /// It does not occur in an ideal fold.
     Photograph,
-    /// It changes the sources.
+    /// It changes the sources. Their amounts are functions of the number on its scale, so the unit of its
+    /// prior is 1.
     Sources {
+        /// Smallest and largest possible value.
+        range: RangeInclusive<f64>,
         /// Introduces it, with its prior, into the sources.
         enter: fn(&FoldInLight, Normal, &mut Sources) -> Result<()>,
     },
@@ -151,7 +145,7 @@ impl Unknown {
     /// True if it belongs to the sheet, and is the same in every photograph of it.
     #[must_use]
     pub fn is_of_sheet(&self) -> bool {
-        self.photograph.as_ref().is_some_and(|effect| effect.whose == Whose::Sheet)
+        self.whose == Whose::Sheet
     }
 
     /// True if it occurs only in photographs of real sheets.

@@ -85,14 +85,14 @@ impl PhotographModel<'_> {
         let Ingredients { terms, sensitivities, conditions, beyond, facets: here, .. } = self.ingredients(w);
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
         let is_nominal =
-            |number: &&Number| (number.effect.known)(&self.stated) == Known::Nominal && !number.matters();
+            |number: &&Number| (number.unknown.known)(&self.stated) == Known::Nominal && !number.matters();
         let numbers: Vec<&Number> = self.numbers.iter().filter(is_nominal).collect();
         let mut by_nominal = DMatrix::zeros(here.values.len(), numbers.len() + self.parts.eye.errors.len());
         for (mut column, number) in by_nominal.column_iter_mut().zip(&numbers) {
             let [at, shifted] = [0.0, STEP].map(|w| {
                 let mut conditions = conditions.clone();
-                (number.effect.set)(&mut conditions, number.at(w).0);
-                predictor.shifted(&here, &conditions, &beyond, number.effect.whose)
+                (number.unknown.set)(&mut conditions, number.at(w).0);
+                predictor.shifted(&here, &conditions, &beyond, number.unknown.whose)
             });
             column.copy_from(&(in_order(&(shifted - at)) / STEP));
         }
@@ -134,15 +134,15 @@ impl<'a> Model for PhotographModel<'a> {
         self.by_spectrum(&mut jacobian.columns_mut(0, scene), &albedo, &terms.slopes, &here);
         let Hypothesis { kind, imperfection, .. } = self.hypothesis;
         let telling = |(_, number): &(usize, &Number)| number.matters() && kind.has(number.unknown);
-        for (n, Number { unknown, effect, .. }) in (scene..).zip(&self.numbers).filter(telling) {
+        for (n, Number { unknown, .. }) in (scene..).zip(&self.numbers).filter(telling) {
             let mut shifted = w.clone();
             shifted[n] += STEP;
-            let beyond = if unknown.is_of_sheet() {
-                Cow::Owned(self.beyond(&shifted))
-            } else {
-                Cow::Borrowed(&beyond)
+            let conditions = self.conditions(&shifted);
+            let beyond = match unknown.is_of_sheet() {
+                true => Cow::Owned(self.departure(&shifted, &conditions).radiance),
+                false => Cow::Borrowed(&beyond),
             };
-            let moved = predictor.shifted(&here, &self.conditions(&shifted), &beyond, effect.whose);
+            let moved = predictor.shifted(&here, &conditions, &beyond, unknown.whose);
             jacobian.column_mut(n).copy_from(&(in_order(&(moved - values)) / STEP));
         }
         // variations of the sheet and errors of the sensitivities enter linearly

@@ -152,7 +152,7 @@ impl<'a> PhotographModel<'a> {
         };
         let [first, ..] = self.layout();
         for (n, number) in self.numbers.iter().enumerate().filter(|(_, number)| number.matters()) {
-            (number.effect.set)(&mut conditions, number.at(w[first + n]).0);
+            (number.unknown.set)(&mut conditions, number.at(w[first + n]).0);
         }
         conditions
     }
@@ -191,28 +191,21 @@ impl<'a> PhotographModel<'a> {
     #[must_use]
     pub fn point(&self, w: &DVector<f64>) -> Point {
         let conditions = self.conditions(w);
-        let [_, sheet, camera, ..] = self.layout();
-        let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
         Point {
             albedo: self.logit(w).iter().map(|z| logistic(*z)).collect(),
-            departure: self.departure(&conditions, &variations),
+            departure: self.departure(w, &conditions),
             exposure: Lighting::new(self.parts, &conditions).exposure(self.parts, &conditions),
         }
     }
 
-    fn departure(&self, conditions: &Conditions, variations: &[f64]) -> Departure {
+    /// The sheet's departure from a Lambertian one at `w`, under the conditions there.
+    fn departure(&self, w: &DVector<f64>, conditions: &Conditions) -> Departure {
         let Hypothesis { kind, imperfection, .. } = self.hypothesis;
+        let [_, sheet, camera, ..] = self.layout();
         match imperfection {
             Imperfection::Ideal => Departure::none(&self.parts.sun.even),
-            _ => self.sheet_models.departure(kind, conditions, variations),
+            _ => self.sheet_models.departure(kind, conditions, &w.as_slice()[sheet..camera]),
         }
-    }
-
-    /// Radiance of the facets minus that of a Lambertian sheet.
-    fn beyond(&self, w: &DVector<f64>) -> Radiance {
-        let [_, sheet, camera, ..] = self.layout();
-        let variations: Vec<f64> = w.rows(sheet, camera - sheet).iter().copied().collect();
-        self.departure(&self.conditions(w), &variations).radiance
     }
 
     /// The camera's sensitivities with their errors at `w`: waveband by channel.
@@ -234,7 +227,8 @@ impl<'a> PhotographModel<'a> {
     fn ingredients(&self, w: &DVector<f64>) -> Ingredients<'a> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
         let (terms, sensitivities) = (self.terms(w, &albedo), self.sensitivities(w));
-        let (conditions, beyond) = (self.conditions(w), self.beyond(w));
+        let conditions = self.conditions(w);
+        let beyond = self.departure(w, &conditions).radiance;
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
         let facets = predictor.facets(&conditions, &beyond);
         Ingredients { albedo, terms, sensitivities, conditions, beyond, facets }
