@@ -158,13 +158,13 @@ impl Inference {
             stated: StatedScene { shown: Some(shown), ..parts.stated },
             ..parts.clone()
         });
-        let Weighed { modes, folds } =
+        let Weighed { modes, possible } =
             photograph::weigh(slice::from_ref(lit.as_ref().unwrap_or(parts)), prior)?;
         let is_named = photograph.making.taken_by != Default::default();
         let cameras = self.other_cameras.as_ref().filter(|_| !is_named || parts.eye.is_stand_in);
         // three searches that all start from the modes
         let (sheet, (light, camera)) = rayon::join(
-            || modes.estimate(folds, prior),
+            || modes.estimate(possible, prior),
             || {
                 rayon::join(
                     || light::rival_in_photograph(parts, &modes, self.other_lights.as_deref()?, prior),

@@ -10,9 +10,9 @@ use vfold::estimate::measurement::{Facets, Inference, Measurement};
 use vfold::estimate::noise::{Noise, deviations};
 use vfold::estimate::photograph::Unmodelled;
 use vfold::estimate::prior::Prior;
-use vfold::estimate::unknowns::{AUTO, EXPOSURE, NONE};
+use vfold::estimate::unknowns::{AUTO, EXPOSURE};
 use vfold::estimate::verdict::{Verdict, refuse_unexplained};
-use vfold::estimate::{Estimate, Exposure, classes, map};
+use vfold::estimate::{Estimate, Exposure, map};
 use vfold::forward::FacetValues;
 use vfold::paper::components::FlatSheet;
 use vfold::paper::smooth;
@@ -29,19 +29,11 @@ use vfold::{Error, Result};
 use super::Args;
 use super::asked::Asked;
 use super::context::{Context, SceneMethod, fold_of};
-use super::flat::FlatEstimator;
 use super::known_fold::KnownFold;
 use super::latest::Latest;
 use super::messages::{self, Deviations};
-use super::settings::{MUNSELL, SHEETS, Smoothness};
-
-/// The method, from `--method` and `--prior`.
-enum Method {
-    /// The spectra of the prior; none for the built-in one.
-    Map(Option<PriorSpectra>),
-    Smooth(Smoothness),
-    Flat(FlatEstimator),
-}
+use super::method::Method;
+use super::settings::Smoothness;
 
 /// The results for a sample.
 pub struct Made {
@@ -50,9 +42,6 @@ pub struct Made {
     /// Records of the iterations, if requested.
     pub trace: Vec<Fields>,
 }
-
-/// Spectra of a prior, and their classes if known.
-type PriorSpectra = (Vec<Spectrum>, Option<Vec<usize>>);
 
 /// Estimates as the flags request.
 pub struct Estimator<'a> {
@@ -69,56 +58,8 @@ pub struct Estimator<'a> {
     forgets_light: bool,
     /// A known fold that determines the light.
     known_fold: Option<KnownFold>,
-    /// The prior on these wavelengths.
-    prior: Latest<WavelengthGrid, Arc<Prior>>,
     /// The alternatives to a stated light, on these wavelengths for these sensitivities of the camera.
     other_lights: Latest<(WavelengthGrid, Vec<Vec<f64>>), Arc<Others>>,
-}
-
-/// The paper's estimator fits no unknown of the scene other than the exposure.
-fn check_fit(args: &Args) -> Result<()> {
-    if args.fit.contains(&EXPOSURE.flag) && args.exposure.is_some_and(|exposure| exposure != Exposure::Free) {
-        let problem = "--exposure already sets the exposure";
-        return Err(Error::usage("--fit", problem, "leave one of them out"));
-    }
-    if let Some(alone) = args.fit.iter().find(|flag| [&AUTO, &NONE].contains(flag))
-        && args.fit.len() > 1
-    {
-        let problem = format!("{} cannot be combined with others", alone.value);
-        return Err(Error::usage("--fit", problem, "leave it out, or the others"));
-    }
-    if args.fit.iter().any(|flag| ![EXPOSURE.flag, &NONE].contains(flag)) && !args.has_prior() {
-        let problem = format!("with --prior {} only the exposure can be fitted", args.prior());
-        return Err(Error::usage("--fit", problem, "leave --prior out, or name spectra"));
-    }
-    Ok(())
-}
-
-fn method(args: &Args) -> Result<Method> {
-    if let Some(flat) = FlatEstimator::of(args)? {
-        return Ok(Method::Flat(flat));
-    }
-    check_fit(args)?;
-    if let Some(error) = args.model_error.filter(|error| !(0.0..=1.0).contains(error)) {
-        return Err(Error::usage("--model-error", format!("{error} is not a relative error"), "give 0 to 1"));
-    }
-    let is_surplus = args.smoothness.is_some() && args.prior() != "smooth";
-    let (problem, remedy) = (format!("not used by --prior {}", args.prior()), "give --prior smooth");
-    cli::refuse([("--smoothness", is_surplus)], &problem, remedy)?;
-    Ok(match args.prior() {
-        "smooth" => Method::Smooth(args.smoothness.unwrap_or(Smoothness::Weight(smooth::SMOOTHNESS))),
-        "none" => Method::Smooth(Smoothness::Weight(0.0)),
-        SHEETS => Method::Map(None),
-        spec => {
-            let classes = (spec == MUNSELL).then(classes::of_munsell);
-            let spectra = args.common.reflectances(spec)?;
-            if spectra.len() < 2 {
-                let problem = format!("'{spec}' holds only one spectrum");
-                return Err(Error::usage("--prior", problem, "name a set or a file of two or more"));
-            }
-            Method::Map(Some((spectra, classes)))
-        }
-    })
 }
 
 impl Transform for Estimator<'_> {
@@ -150,7 +91,7 @@ impl Transform for Estimator<'_> {
         // the scene has the same components in any light
         let lit = if lights.is_empty() { None } else { Some(scene.in_assumed_light(&grid)?) };
         let method = match &self.method {
-            Method::Map(spectra) => SceneMethod::Map(self.prior_on(&grid, spectra.as_ref())?),
+            Method::Map(prior) => SceneMethod::Map(prior.on(&grid)?),
             Method::Smooth(smoothness) => SceneMethod::Smooth(*smoothness),
             Method::Flat(flat) => {
                 SceneMethod::Flat(flat.context(&grid, &Setting::of(lit.as_ref().unwrap_or(scene))?.model()?)?)
@@ -249,10 +190,9 @@ impl<'a> Estimator<'a> {
             start: reflectance("--start", &args.start)?,
             illuminants: illuminants.transpose()?,
             asked: Asked::new(args),
-            method: method(args)?,
+            method: Method::of(args)?,
             forgets_light: args.planning.forgets_light(args.kernel.kernel.is_some())?,
             known_fold: KnownFold::of(args)?,
-            prior: Latest::default(),
             other_lights: Latest::default(),
         })
     }
@@ -273,18 +213,6 @@ impl<'a> Estimator<'a> {
         let sd = deviations(rgb, |_| noise_sd, self.asked.args.model_error.unwrap_or(0.0));
         let data = context.inference.data(&Measured { rgb, sd: &sd }, exposure, false)?;
         map::estimate(&data, self.prior_of(context)?, context.inference.start.as_deref())
-    }
-
-    /// The prior on these wavelengths.
-    fn prior_on(&self, grid: &WavelengthGrid, spectra: Option<&PriorSpectra>) -> Result<Arc<Prior>> {
-        self.prior.get(grid.clone(), |grid| {
-            let Some((spectra, classes)) = spectra else {
-                return Ok(Arc::new(Prior::built_in(grid.wavelengths_nm())?));
-            };
-            let on_grid = spectra.iter().map(|one| one.on(grid, Outside::Refuse));
-            let on_grid: Vec<_> = on_grid.collect::<Result<_>>().map_err(|e| e.of_flag("--prior"))?;
-            Ok(Arc::new(Prior::from_spectra(grid.wavelengths_nm(), &on_grid, classes.as_deref())?))
-        })
     }
 
     /// Alternatives to the light of a scene, if there are any.

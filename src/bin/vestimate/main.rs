@@ -9,6 +9,7 @@ mod join;
 mod known_fold;
 mod latest;
 mod messages;
+mod method;
 mod plan;
 mod settings;
 mod verdicts;

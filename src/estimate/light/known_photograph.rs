@@ -34,7 +34,8 @@ impl ShownScenarios {
     /// [`Error::Numeric`] if the facets are not finite.
     pub fn of(parts: &Parts, lights: &[Candidate], known: &KnownReflectance, prior: &Prior) -> Result<Self> {
         let scenarios = Scenario::all(parts, lights);
-        let photographs = Photographs::of(slice::from_ref(parts));
+        let not_finite = || Error::Numeric("the facets of the known fold are not finite".to_owned());
+        let (photographs, _) = Photographs::of(slice::from_ref(parts), prior).ok_or_else(not_finite)?;
         let (mut best, mut start, mut rms, mut daylight) = (f64::NEG_INFINITY, None, f64::INFINITY, None);
         let mut ln_evidence = Vec::with_capacity(scenarios.len());
         for scenario in &scenarios {
@@ -48,7 +49,7 @@ impl ShownScenarios {
             ln_evidence.push(ln_all);
         }
         if !best.is_finite() {
-            return Err(Error::Numeric("the facets of the known fold are not finite".to_owned()));
+            return Err(not_finite());
         }
         ln_evidence.iter_mut().for_each(|ln| *ln -= best);
         Ok(Self { ln_evidence, daylight, rms })
@@ -71,7 +72,7 @@ impl ShownScenarios {
 #[must_use]
 pub fn daylight_of_known(parts: &Parts, known: &KnownReflectance, prior: &Prior) -> Option<ShownDaylight> {
     parts.stated.daylight?;
-    let photographs = Photographs::of(slice::from_ref(parts));
+    let (photographs, _) = Photographs::of(slice::from_ref(parts), prior)?;
     let scenario = Scenario::new(None, 0.0, parts.clone());
     shown_daylight(&known_in(&scenario, &photographs, known, prior, (&mut None, f64::NEG_INFINITY)))
 }

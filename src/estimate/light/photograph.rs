@@ -64,8 +64,10 @@ pub fn estimate_photograph(
 /// Scenarios other than daylight under a sky that remain possible, the most probable first.
 fn probable<'w, 'a>(scenarios: &'w [Scenario<'a>], prior: &Prior) -> Vec<&'w Scenario<'a>> {
     let Some(first) = scenarios.first() else { return Vec::new() };
-    let photographs = Photographs::of(slice::from_ref(&first.parts));
+    let predicted = Photographs::of(slice::from_ref(&first.parts), prior);
+    let Some((photographs, start)) = predicted else { return Vec::new() };
     let (mut all, mut starts, mut best) = (Vec::new(), Starts::default(), f64::NEG_INFINITY);
+    starts.keep(&start);
     for scenario in scenarios {
         let ln_least = best + 2.0 * LN_EVIDENCE_LEAST;
         if let Some(tried) = scenario.best(&photographs, prior, (&mut starts, ln_least)) {

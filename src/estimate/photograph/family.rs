@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::hypotheses::Hypothesis;
+use super::hypotheses::{Hypothesis, usual_hypotheses};
 use super::joint::{JointModel, Member};
 use super::model::Point;
 use super::parts::Parts;
@@ -14,6 +14,7 @@ use crate::estimate::family::{Family, SpectrumModel, widened};
 use crate::estimate::gaussian::Gaussian;
 use crate::estimate::mixture::LocalMode;
 use crate::estimate::prior::Prior;
+use crate::estimate::search::Search;
 use crate::estimate::unknowns::EXPOSURE;
 use crate::solve::dense::rms;
 use crate::solve::posterior::{Linearised, Model};
@@ -43,9 +44,23 @@ pub struct Seen {
 }
 
 impl<'a> Photographs<'a> {
-    /// From the parts of each photograph.
-    pub fn of(parts: &'a [Parts]) -> Self {
-        Self(Photograph::all(parts))
+    /// From the parts of each photograph, with errors relative to predicted values rather than to measured
+    /// ones, and the point of the prediction; `None` if the facets are not finite.
+    pub fn of(parts: &'a [Parts], prior: &Prior) -> Option<(Self, DVector<f64>)> {
+        let measured = Self(Photograph::all(parts));
+        let first = *usual_hypotheses().first()?;
+        let found = Search::new(&measured, prior).sort((first, 0.0), None, f64::NEG_INFINITY)?;
+        let model = measured.model(first, prior.broad())?;
+        let w = found.solution.w;
+        let predicted = model.members().iter().map(|member| member.model.values_at(&member.own(&w)));
+        let predicted: Vec<_> = predicted.collect();
+        drop(model);
+        // a model that is far off predicts nothing
+        let relative = |(one, predicted): (Photograph<'a>, DMatrix<f64>)| {
+            let values = predicted.zip_map(&one.parts.values, |predicted, value| predicted.max(0.5 * value));
+            one.relative_to(values)
+        };
+        Some((Self(measured.0.into_iter().zip(predicted).map(relative).collect()), w))
     }
 
     /// The same photograph assumed to be in the light of other parts, which are otherwise the same.

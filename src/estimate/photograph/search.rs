@@ -1,7 +1,9 @@
 //! The most probable spectrum under all hypotheses on photographs of a sheet: usual ones with each sheet
 //! model, or an ideal fold.
 
-use nalgebra::{DMatrix, DVector};
+use std::iter;
+
+use nalgebra::DVector;
 
 use super::conditions::StatedScene;
 use super::corners;
@@ -30,8 +32,8 @@ use crate::solve::posterior::{Iteration, Model};
 pub struct Weighed<'a> {
     /// What searches in another light or of another camera start from.
     pub modes: Modes<'a>,
-    /// The folds that the evidence does not rule out.
-    pub folds: Folds,
+    /// The hypotheses that the evidence does not rule out.
+    pub possible: Possible,
 }
 
 /// Modes of a sheet of the [family](SheetModel::Family).
@@ -47,11 +49,9 @@ pub struct Modes<'a> {
     pub ln_by_emission: f64,
 }
 
-/// Folds in order of evidence.
-pub struct Folds {
+/// Hypotheses in order of evidence.
+pub struct Possible {
     sorted: Vec<Tried>,
-    /// Probability that no light bounces between the panels.
-    without_bounces: f64,
     /// Iterations by run.
     trace: Vec<Vec<Iteration>>,
 }
@@ -78,8 +78,8 @@ pub fn weigh<'a>(parts: &'a [Parts], prior: &Prior) -> Result<Weighed<'a>> {
 /// # Errors
 /// As [`weigh`].
 pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
-    let Weighed { modes, folds } = weigh(parts, prior)?;
-    modes.estimate(folds, prior)
+    let Weighed { modes, possible } = weigh(parts, prior)?;
+    modes.estimate(possible, prior)
 }
 
 /// The estimate from photographs assumed to be usual ones, however ideal their facets, as those of planned
@@ -93,9 +93,9 @@ pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
                        estimate one lit by the sky alone by itself";
         return Err(Error::field("light.sun", problem));
     }
-    let Weighed { modes, folds } =
+    let Weighed { modes, possible } =
         Weighed::under(parts, prior, (|_| usual_hypotheses(), |_| Vec::new())).ok_or_else(not_finite)?;
-    modes.estimate(folds, prior)
+    modes.estimate(possible, prior)
 }
 
 fn not_finite() -> Error {
@@ -111,7 +111,7 @@ impl<'a> Weighed<'a> {
             impl Fn(&[Photograph]) -> Vec<Day>,
         ),
     ) -> Option<Self> {
-        let (photographs, start) = relative_to_predictions(Photographs::of(parts), prior)?;
+        let (photographs, start) = Photographs::of(parts, prior)?;
         let all = hypotheses(&photographs.0);
         let (mut sorted, mut trace) = sorted(&photographs, prior, (all, start), &dull_days(&photographs.0))?;
         let mut search = Search::new(&photographs, prior);
@@ -124,12 +124,11 @@ impl<'a> Weighed<'a> {
         };
         let of_family = sorted.iter().filter(|one| is_of_family(&one.hypothesis));
         let of_days = of_family.map(|one| (one.hypothesis.day, one.solution.w.clone())).collect();
-        // without a fold, no light bounces between panels
-        let without_bounces = probability(&sorted, |one| !one.has_bounces());
-        let sorted = folds(sorted);
+        let least = sorted.first()?.ln_weight() + LN_EVIDENCE_NEAR;
+        sorted.retain(|one| one.ln_weight() >= least);
         let day = day(&sorted, &photographs.0);
         let modes = Modes { photographs, day, of_days, ln_by_emission };
-        Some(Self { modes, folds: Folds { sorted, without_bounces, trace } })
+        Some(Self { modes, possible: Possible { sorted, trace } })
     }
 }
 
@@ -140,24 +139,23 @@ impl Modes<'_> {
         self.of_days.iter().find(|(of, _)| self.day.is_none_or(|found| found.day == *of))
     }
 
-    /// The estimate under all `folds` of these photographs.
+    /// The estimate under all `possible` hypotheses on these photographs.
     ///
     /// # Errors
     /// [`Error::Numeric`] if the facets are not finite.
-    pub fn estimate(&self, folds: Folds, prior: &Prior) -> Result<SheetEstimate> {
-        self.mixture(folds, prior).ok_or_else(not_finite)
+    pub fn estimate(&self, possible: Possible, prior: &Prior) -> Result<SheetEstimate> {
+        self.mixture(possible, prior).ok_or_else(not_finite)
     }
 
-    fn mixture(
-        &self,
-        Folds { sorted, without_bounces, trace }: Folds,
-        prior: &Prior,
-    ) -> Option<SheetEstimate> {
+    fn mixture(&self, Possible { sorted, trace }: Possible, prior: &Prior) -> Option<SheetEstimate> {
         let Self { photographs, day, .. } = self;
         let mut search = Search::new(photographs, prior);
         search.trace = trace;
         let found = search.mixture(&sorted)?;
         let seen = photographs.seen(&found.best)?;
+        let without = found.shares.iter().filter(|(hypothesis, _)| !hypothesis.has_bounces());
+        // shares may add up to slightly more than 1 by rounding
+        let without_bounces = without.map(|(_, share)| share).sum::<f64>().min(1.0);
         let of = |(photograph, seen): (&Photograph, Seen)| {
             let (findings, skipped) =
                 (all_findings(photograph, &found, &seen, *day), skipped(&seen.fitted, search.skipped));
@@ -168,27 +166,6 @@ impl Modes<'_> {
         let estimates = photographs.0.iter().zip(seen).map(of).collect();
         Some(SheetEstimate { photographs: estimates, ln_evidence: found.ln_evidence })
     }
-}
-
-/// Photographs with errors relative to predicted values rather than to measured ones, and the point of the
-/// prediction.
-fn relative_to_predictions<'a>(
-    family: Photographs<'a>,
-    prior: &Prior,
-) -> Option<(Photographs<'a>, DVector<f64>)> {
-    let first = *usual_hypotheses().first()?;
-    let found = Search::new(&family, prior).sort((first, 0.0), None, f64::NEG_INFINITY)?;
-    let model = family.model(first, prior.broad())?;
-    let predicted =
-        model.members().iter().map(|member| member.model.values_at(&member.own(&found.solution.w)));
-    let predicted: Vec<_> = predicted.collect();
-    // a model that is far off predicts nothing
-    let relative = |(one, predicted): (Photograph<'a>, DMatrix<f64>)| {
-        let values = predicted.zip_map(&one.parts.values, |predicted, value| predicted.max(0.5 * value));
-        one.relative_to(values)
-    };
-    drop(model);
-    Some((Photographs(family.0.into_iter().zip(predicted).map(relative).collect()), found.solution.w))
 }
 
 /// Adds to the real fold of most evidence the same fold of a sheet that fluoresces and, where the exposure is
@@ -258,28 +235,18 @@ fn fluorescence(photograph: &Photograph, found: &Mixture<Hypothesis, ()>) -> Opt
     fluorescence_search::found(shares, (&found.values, found.spread.as_ref()), nothing, first)
 }
 
-/// Probability of some hypotheses among `all`, sorted by weight, the largest first.
-fn probability(all: &[Tried], of: impl Fn(&Hypothesis) -> bool) -> f64 {
-    let ln_most = all.first().map_or(0.0, Tried::ln_weight);
-    let weight = |one: &Tried| (one.ln_weight() - ln_most).exp();
-    let those = all.iter().filter(|one| of(&one.hypothesis));
-    those.map(weight).sum::<f64>() / all.iter().map(weight).sum::<f64>().max(f64::MIN_POSITIVE)
-}
-
-/// The most probable kind of day, given folds in order of evidence; `None` if the light is not daylight.
-fn day(folds: &[Tried], photographs: &[Photograph]) -> Option<DayEstimate> {
+/// The most probable kind of day among hypotheses sorted by evidence; `None` if the light is not daylight.
+fn day(sorted: &[Tried], photographs: &[Photograph]) -> Option<DayEstimate> {
     photographs.iter().all(|one| one.parts.stated.daylight.is_some()).then_some(())?;
-    let found =
-        Day::ALL.map(|day| DayEstimate { day, probability: probability(folds, |one| one.day == day) });
-    found.into_iter().max_by(|a, b| a.probability.total_cmp(&b.probability))
-}
-
-/// The folds, except those ruled out by the evidence.
-fn folds(all: Vec<Tried>) -> Vec<Tried> {
-    let mut folds: Vec<_> = all.into_iter().filter(|one| one.hypothesis.has_bounces()).collect();
-    let least = folds.first().map_or(0.0, |first| first.ln_weight() + LN_EVIDENCE_NEAR);
-    folds.retain(|one| one.ln_weight() >= least);
-    folds
+    let ln_most = sorted.first()?.ln_weight();
+    let mut probabilities = [0.0; Day::ALL.len()];
+    for one in sorted {
+        probabilities[one.hypothesis.day as usize] += (one.ln_weight() - ln_most).exp();
+    }
+    let sum: f64 = probabilities.iter().sum();
+    let found = iter::zip(Day::ALL, probabilities.map(|odds| odds / sum));
+    let (day, probability) = found.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    Some(DayEstimate { day, probability })
 }
 
 /// Deviations of a photograph from the ideal: unknowns of its scene, and corners that are not where they were
