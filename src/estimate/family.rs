@@ -24,8 +24,8 @@ pub trait SpectrumModel: Model {
     fn ln_whitening(&self) -> f64;
 }
 
-/// Number of channels that distinguish classes of spectra, lights, and light that the sheet itself emits: fewer
-/// have several modes, none of which need be that of most evidence.
+/// Number of channels that distinguish classes of spectra, lights, and light that the sheet itself emits:
+/// fewer have several modes, none of which need be that of most evidence.
 pub const TELLING_CHANNELS: usize = 3;
 
 /// The models of some data.

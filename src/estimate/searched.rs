@@ -44,7 +44,8 @@ impl Lit<'_> {
 }
 
 impl<'a> Searched<'a> {
-    /// Searches alternatives, those without emission first; `None` if there are none, or facets are not finite.
+    /// Searches alternatives, those without emission first; `None` if there are none, or facets are not
+    /// finite.
     pub fn among(all: Vec<Lit<'a>>, prior: &Prior) -> Option<(Self, Trace)> {
         if all.is_empty() {
             return None;

@@ -178,7 +178,8 @@ fn a_trace_has_a_line_an_iteration() {
     }
 }
 
-/// Blue light alone comes from the sky, which the scene does not say: no colour of daylight has that.
+/// Blue light alone comes from the sky, which the scene does not say: no colour of daylight has that. Where
+/// the sun's is open, too, both end on their bounds.
 #[test]
 fn a_sky_bluer_than_any_is_fitted_on_the_bound() {
     let run = Workdir::new().sh(r#"
@@ -189,15 +190,18 @@ fn a_sky_bluer_than_any_is_fitted_on_the_bound() {
             {
                 simulate cc24:$chip | head -n 1
                 simulate cc24:$chip --sky-illuminant blue.csv | tail -n 1
-            } | vestimate -q --fit sky
-        done"#);
+            } > $chip.ndjson
+            vestimate -q $chip.ndjson --fit sky
+        done
+        vestimate -q cyan.ndjson --fit sky,daylight"#);
     assert!(run.status == 0, "{}", run.stderr);
     let records = run.stdout.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
     let samples: Vec<Value> = records.filter(|record| record["kind"] == "sample").collect();
-    assert_eq!(samples.len(), 3);
-    for sample in samples {
+    assert_eq!(samples.len(), 4);
+    for sample in &samples {
         let estimate = &sample["estimate"];
         assert_eq!(estimate["fit"]["sky_cct_k"]["value"].as_f64(), Some(1e5), "{estimate}");
         assert!(estimate["verdict"]["level"] != "good", "{}", estimate["verdict"]);
     }
+    assert_eq!(samples[3]["estimate"]["fit"]["sun_cct_k"]["value"].as_f64(), Some(1e5), "{}", samples[3]);
 }

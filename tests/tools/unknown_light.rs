@@ -31,15 +31,16 @@ fn one_candidate_is_a_light_that_is_stated() {
         vkernel --angle-deg 50 -o scene.json
         vextract -q '{PHOTO}' --scene scene.json --camera canon-5d-mark-ii \
             --illuminant FL11 {PANELS} -o photo.ndjson
-        for records in computed photo; do
-            vestimate -q $records.ndjson --exposure free
-            vestimate -q $records.ndjson --exposure free --illuminant unknown --illuminants FL11
+        for light in '' '--illuminant unknown --illuminants FL11'; do
+            vestimate -q computed.ndjson --exposure free $light
+            for fit in auto exposure none; do vestimate -q photo.ndjson --fit $fit $light; done
         done"
     ));
     assert_eq!(run.status, 0, "{run:?}");
     let all = records(&run.stdout);
     let samples: Vec<&Value> = all.iter().filter(|record| record["kind"] == "sample").collect();
-    for [stated, found] in [[0, 2], [1, 3], [4, 5]].map(|pair| pair.map(|n| &samples[n]["estimate"])) {
+    let (stated, found) = samples.split_at(5);
+    for (stated, found) in stated.iter().zip(found).map(|(a, b)| (&a["estimate"], &b["estimate"])) {
         for name in ["reflectance", "reflectance_sd"] {
             assert!(rms(&numbers(&stated[name]), &numbers(&found[name])) < 1e-9, "{name}");
         }

@@ -100,13 +100,13 @@ impl Scenario<'_> {
 /// else is taken from the most probable one.
 fn mean(mut all: Vec<(f64, Estimate)>) -> Option<Estimate> {
     all.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    let weighted = |of: &dyn Fn(&Estimate) -> Option<DVector<f64>>| {
-        let each: Option<Vec<_>> =
-            all.iter().map(|(share, one)| of(one).map(|values| *share * values)).collect();
-        each?.into_iter().reduce(|sum, one| sum + one)
+    let weighted = |of: fn(&Estimate) -> &[f64]| {
+        let each = all.iter().map(|(share, one)| *share * DVector::from_column_slice(of(one)));
+        each.reduce(|sum, one| sum + one)
     };
-    let reflectance = weighted(&|one| Some(DVector::from_column_slice(&one.reflectance)))?;
-    let total = weighted(&|one| one.albedo.as_deref().map(DVector::from_column_slice));
+    let reflectance = weighted(|one| &one.reflectance)?;
+    // a Lambertian sheet reflects alike whatever the directions
+    let albedo = weighted(|one| one.albedo.as_ref().unwrap_or(&one.reflectance))?;
     let rows = |(share, one): &(f64, Estimate)| {
         let apart = RowDVector::from_row_slice(&one.reflectance) - reflectance.transpose();
         let within = one.spread.as_ref()?.row_iter().map(nalgebra::Matrix::into_owned);
@@ -119,7 +119,7 @@ fn mean(mut all: Vec<(f64, Estimate)>) -> Option<Estimate> {
     let within = |values: DVector<f64>| values.iter().map(|value| value.min(1.0)).collect::<Vec<_>>();
     Some(Estimate {
         reflectance: within(reflectance),
-        albedo: total.map(within).filter(|_| best.albedo.is_some()),
+        albedo: best.albedo.is_some().then(|| within(albedo)),
         spread,
         without_bounces,
         ..best

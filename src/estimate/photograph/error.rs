@@ -80,8 +80,8 @@ impl<'a> ModelError<'a> {
         Some(Whitening { inverse, ln_determinant })
     }
 
-    /// Variances: what all channels share, of each channel by itself, of each facet by itself, of the position
-    /// of a corner, and of light from the side, which one panel gains and the other loses.
+    /// Variances: of what all channels share, of each channel by itself, of each facet by itself, of the
+    /// position of a corner, and of light from the side, which one panel gains and the other loses.
     fn variances(&self) -> [f64; 5] {
         let Self { priors, diffuse, .. } = self;
         let shared = priors.discrepancy_shared.hypot(diffuse * priors.discrepancy_sky);

@@ -2,9 +2,9 @@
 
 use super::priors::Priors;
 
-/// Common amount of all effects that an ideal fold lacks: crease, bow, sky, ground, vignetting and glare, the
-/// sheet's differences from a matte one, errors in the stated angle, tilt, exposure, light and camera, and the
-/// model error.
+/// Common amount of all effects that an ideal fold lacks: crease, bow, sky, ground, vignetting and glare,
+/// the sheet's differences from a matte one, errors in the stated angle, tilt, exposure, light and camera,
+/// and the model error.
 ///
 /// No value is chosen: estimates are made under each one that the facets permit, and weighed by evidence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
