@@ -178,7 +178,8 @@ impl Together for Estimator<'_> {
             };
             let inference = one.context.inference(self.prior_of(&one.context)?, self.is_auto());
             let Measurement { estimate, verdict, .. } = inference.share(&facets, estimate);
-            self.finish(&one.context, &mut one.sample, (&estimate, Some(&verdict)), &how, &ids)
+            let noise = self.asked.noise(&one.sample)?;
+            self.finish(&one.context, &mut one.sample, &noise, (&estimate, Some(&verdict)), &how, &ids)
         };
         estimates.map(joined).collect()
     }
