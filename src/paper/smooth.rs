@@ -51,7 +51,7 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
         findings: Vec::new(),
         skipped: Vec::new(),
         trace: Vec::new(),
-        exposure: at.exposure,
+        exposure: at.predicted.exposure,
         residual_rms: data.rms(&at.residuals),
         unexplained: data.unexplained(&at.residuals),
         day: None,
