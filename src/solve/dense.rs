@@ -122,10 +122,15 @@ pub fn add_rows(
 /// The lower triangle of `aᵀa`; what is above the diagonal means nothing.
 #[must_use]
 pub fn squares(a: &DMatrix<f64>) -> DMatrix<f64> {
-    let (count, transposed) = (a.ncols(), a.transpose());
+    squares_of_rows(&a.transpose())
+}
+
+/// The lower triangle of `a·aᵀ`; what is above the diagonal means nothing.
+#[must_use]
+pub fn squares_of_rows(a: &DMatrix<f64>) -> DMatrix<f64> {
+    let (count, values) = (a.nrows(), a.as_slice());
     let mut squares = DMatrix::zeros(count, count);
-    let values = transposed.as_slice();
-    let factors = Factors { left: values, right: values, heights: [count; 2], inner: 0..a.nrows() };
+    let factors = Factors { left: values, right: values, heights: [count; 2], inner: 0..a.ncols() };
     for (sum, first) in
         squares.as_mut_slice().chunks_mut((BLOCK * count).max(1)).zip((0..count).step_by(BLOCK))
     {
