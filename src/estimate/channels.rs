@@ -1,5 +1,6 @@
 //! Linear maps from the terms of the reflectance to compressed data, by channel and source.
 
+use std::iter::repeat_n;
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
@@ -14,6 +15,18 @@ struct Lit {
     compressed: DMatrix<f64>,
     /// The camera's weights: waveband by channel.
     weights: DMatrix<f64>,
+    /// The weights of each datum's channel: datum by waveband.
+    of_data: DMatrix<f64>,
+}
+
+impl Lit {
+    /// Light to which a camera responds, given the data of its channels.
+    fn seen_by(camera: &CameraResponse, compressed: DMatrix<f64>, channels: &[Range<usize>]) -> Self {
+        let weights = weights(camera);
+        let of_datum = channels.iter().enumerate().flat_map(|(channel, rows)| repeat_n(channel, rows.len()));
+        let of_data = weights.select_columns(&of_datum.collect::<Vec<_>>()).transpose();
+        Self { compressed, weights, of_data }
+    }
 }
 
 /// The channels, whose data follow one another.
@@ -40,7 +53,7 @@ impl Channels {
             for (rows, of_channel) in rows.iter().zip(maps) {
                 compressed.rows_mut(rows.start, rows.len()).copy_from(&of_channel[source]);
             }
-            Lit { compressed, weights: weights(camera) }
+            Lit::seen_by(camera, compressed, &rows)
         };
         let sources = cameras.enumerate().map(lit).collect();
         Self { rows, sources }
@@ -48,8 +61,7 @@ impl Channels {
 
     /// The same surface in another light.
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
-        let lit =
-            |Lit { compressed, .. }: &Lit| Lit { compressed: compressed.clone(), weights: weights(camera) };
+        let lit = |Lit { compressed, .. }: &Lit| Lit::seen_by(camera, compressed.clone(), &self.rows);
         Self { rows: self.rows.clone(), sources: self.sources.iter().map(lit).collect() }
     }
 
@@ -66,7 +78,7 @@ impl Channels {
     /// Model of the compressed data at exposure 1 for each source in amount 1: datum by source.
     pub fn parts_of(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
         let mut parts = DMatrix::zeros(self.len(), self.sources.len());
-        for (Lit { compressed, weights }, mut part) in self.sources.iter().zip(parts.column_iter_mut()) {
+        for (Lit { compressed, weights, .. }, mut part) in self.sources.iter().zip(parts.column_iter_mut()) {
             // every channel's weights on the data of all: few numbers, and fewer products than one by one
             let seen = product(compressed, &dot_products(terms, weights));
             for (rows, seen) in self.rows.iter().zip(seen.column_iter()) {
@@ -80,18 +92,12 @@ impl Channels {
     /// by `more` columns of zeros.
     pub fn columns_of(&self, terms: &DMatrix<f64>, amounts: &DVector<f64>, more: usize) -> DMatrix<f64> {
         let mut columns = DMatrix::zeros(self.len(), terms.nrows() + more);
-        let data = self.len().max(1);
-        for (Lit { compressed, weights }, amount) in self.sources.iter().zip(amounts) {
+        for (Lit { compressed, of_data, .. }, amount) in self.sources.iter().zip(amounts) {
             // every channel's weights on the data of that channel alone, after one product for all
             let seen = product_with_transposed(compressed, terms);
-            let bands = seen.as_slice().chunks_exact(data).enumerate();
-            for (column, (band, seen)) in columns.as_mut_slice().chunks_exact_mut(data).zip(bands) {
-                for (channel, rows) in self.rows.iter().enumerate() {
-                    let weight = amount * weights[(band, channel)];
-                    let of_channel = column[rows.clone()].iter_mut().zip(&seen[rows.clone()]);
-                    of_channel.for_each(|(sum, value)| *sum += weight * value);
-                }
-            }
+            let values = seen.as_slice().iter().zip(of_data.as_slice());
+            let columns = columns.as_mut_slice();
+            columns.iter_mut().zip(values).for_each(|(sum, (value, weight))| *sum += amount * weight * value);
         }
         columns
     }
@@ -104,7 +110,7 @@ impl Channels {
         amounts: &DVector<f64>,
     ) -> DVector<f64> {
         let mut along = DVector::zeros(of_terms.nrows());
-        for (Lit { compressed, weights }, amount) in self.sources.iter().zip(amounts) {
+        for (Lit { compressed, weights, .. }, amount) in self.sources.iter().zip(amounts) {
             let mut by_term = DMatrix::zeros(of_terms.ncols(), self.rows.len());
             for (rows, mut by_term) in self.rows.iter().zip(by_term.column_iter_mut()) {
                 let multipliers = multipliers.rows(rows.start, rows.len());

@@ -5,7 +5,9 @@ use std::ops::AddAssign;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives};
+use super::data::{
+    Curvature, FacetData, FittedExposure, LinearisedFacets, Predicted, Residuals, SecondDerivatives,
+};
 use super::emission::{Emission, Fall, Sent};
 use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
@@ -86,24 +88,13 @@ impl Facets<'_> {
         let fall = self.data.emission()?.fall(&unknowns.as_slice()[scene..])?;
         Some((scene + fall.place, fall))
     }
+}
 
-    fn linearised(&self, w: &DVector<f64>) -> (DVector<f64>, Second) {
-        let (logit, unknowns) = self.split(w);
-        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        let LinearisedFacets { residuals, mut jacobian, mut exposure, second } =
-            self.data.linearise(&reflectance, unknowns.as_slice());
-        for (band, r) in reflectance.iter().enumerate() {
-            jacobian.column_mut(band).scale_mut(r * (1.0 - r));
-            exposure.slopes[band] *= r * (1.0 - r);
-        }
-        if let Some((place, Fall { sd, falling, .. })) = self.fall(&unknowns) {
-            let bands = logit.len();
-            let column = sd * jacobian.columns(0, bands) * falling;
-            jacobian.column_mut(bands + place).copy_from(&column);
-            exposure.slopes[bands + place] = sd * exposure.slopes.rows(0, bands).dot(falling);
-        }
-        (residuals, Second { reflectance, jacobian, exposure, by_reflectance: second })
-    }
+/// A point of the data's model, and what that predicts there.
+pub struct Point {
+    reflectance: Vec<f64>,
+    unknowns: DVector<f64>,
+    predicted: Predicted,
 }
 
 impl SpectrumModel for Facets<'_> {
@@ -120,7 +111,7 @@ impl SpectrumModel for Facets<'_> {
     fn values(&self, w: &DVector<f64>) -> Vec<f64> {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        let Residuals { exposure, .. } = self.data.residuals(&reflectance, unknowns.as_slice());
+        let exposure = self.data.residuals(&reflectance, unknowns.as_slice()).predicted.exposure;
         let sent = self.sent(&reflectance, &unknowns);
         let of_scene =
             self.data.scene().unknowns().iter().zip(&unknowns).map(|(expected, w)| expected.at(*w).0);
@@ -218,27 +209,39 @@ impl Family for FacetData<'_> {
 
 impl Model for Facets<'_> {
     type Second = Second;
-    type Ingredients = ();
+    type Ingredients = Point;
 
     fn unknowns(&self) -> usize {
         self.gaussian.basis().ncols() + self.data.unknowns()
     }
 
-    fn evaluate(&self, w: &DVector<f64>) -> Evaluated<()> {
+    fn evaluate(&self, w: &DVector<f64>) -> Evaluated<Point> {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        let Residuals { residuals, .. } = self.data.residuals(&reflectance, unknowns.as_slice());
-        Evaluated { residuals, ingredients: () }
+        let Residuals { residuals, predicted } = self.data.residuals(&reflectance, unknowns.as_slice());
+        Evaluated { residuals, ingredients: Point { reflectance, unknowns, predicted } }
     }
 
-    fn derivatives(&self, w: &DVector<f64>, _: Evaluated<()>) -> Linearised<Second> {
-        self.linearise(w)
-    }
-
-    /// With second derivatives it takes other products than the residuals.
-    fn linearise(&self, w: &DVector<f64>) -> Linearised<Second> {
-        let (residuals, second) = self.linearised(w);
-        Linearised::new(residuals, whitened(&second.jacobian, self.gaussian), second)
+    fn derivatives(&self, _: &DVector<f64>, at: Evaluated<Point>) -> Linearised<Second> {
+        let Evaluated { residuals, ingredients: Point { reflectance, unknowns, predicted } } = at;
+        let LinearisedFacets { residuals, mut jacobian, mut exposure, second } =
+            self.data.derivatives(&reflectance, unknowns.as_slice(), Residuals { residuals, predicted });
+        for (band, r) in reflectance.iter().enumerate() {
+            jacobian.column_mut(band).scale_mut(r * (1.0 - r));
+            exposure.slopes[band] *= r * (1.0 - r);
+        }
+        if let Some((place, Fall { sd, falling, .. })) = self.fall(&unknowns) {
+            let bands = reflectance.len();
+            let column = sd * jacobian.columns(0, bands) * falling;
+            jacobian.column_mut(bands + place).copy_from(&column);
+            exposure.slopes[bands + place] = sd * exposure.slopes.rows(0, bands).dot(falling);
+        }
+        let whitened = whitened(&jacobian, self.gaussian);
+        Linearised::new(
+            residuals,
+            whitened,
+            Second { reflectance, jacobian, exposure, by_reflectance: second },
+        )
     }
 
     fn curvature(&self, at: &Second, multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {

@@ -4,6 +4,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::solve::dense::add_product;
+
 /// Distance from 0 and 1 at which reflectances are clamped, as the logit of a measured 0 or 1 would be
 /// infinite.
 const MARGIN: f64 = 2e-3;
@@ -85,7 +87,7 @@ impl Gaussian {
     #[must_use]
     pub fn logit_at(&self, w: &DVector<f64>) -> DVector<f64> {
         let mut logit = self.mean.clone();
-        logit.gemv(1.0, &self.basis, w, 1.0);
+        add_product(&mut logit, &self.basis, w);
         logit
     }
 

@@ -12,7 +12,10 @@ use super::family::{Family, SpectrumModel};
 use super::gaussian::Gaussian;
 use super::prior::{Class, Prior, ROUGHNESSES, SCALES};
 use crate::solve::Eigen;
-use crate::solve::dense::{cholesky, dot_products, product, stacked, transposed_product};
+use crate::solve::dense::{
+    add_product, cholesky, product, product_with_transposed, squares, squares_of_rows, stacked,
+    transposed_product,
+};
 use crate::solve::posterior::{Linearised, Model};
 
 /// Widths at which every class is weighed. Only classes whose log evidence is this close to the best are
@@ -151,7 +154,7 @@ impl<H: Copy> Linear<H> {
 
     /// True if the data say so much about a spectrum that classes of less evidence may be dropped.
     pub fn is_telling(&self, gaussian: &Gaussian) -> bool {
-        let spread = dot_products(&self.informed.values, gaussian.basis());
+        let spread = product(&self.informed.values, gaussian.basis());
         if spread.nrows() < TELLING_LEAST || spread.iter().any(|value| !value.is_finite()) {
             return false;
         }
@@ -162,7 +165,7 @@ impl<H: Copy> Linear<H> {
 
 /// Combinations of logits determined by the data, with the other numbers marginalised.
 struct Informed {
-    /// Waveband by value, each value with standard deviation 1, those determined best first.
+    /// Value by waveband, each value with standard deviation 1, those determined best first.
     values: DMatrix<f64>,
     /// Offsets of the values at the point of linearisation.
     off: DVector<f64>,
@@ -187,7 +190,7 @@ impl Informed {
         let count = (r.nrows() - others).min(bands);
         let last = others + bands;
         Self {
-            values: r.view((others, others), (count, bands)).transpose(),
+            values: r.view((others, others), (count, bands)).into_owned(),
             off: r.view((others, last), (count, 1)).column(0).into_owned(),
             left: if r.nrows() > last { r[(last, last)].powi(2) } else { 0.0 },
         }
@@ -200,14 +203,14 @@ impl Informed {
     /// orthogonal transformation.
     fn condensed(self) -> Self {
         let Self { values, mut off, left } = self;
-        let qr = values.transpose().col_piv_qr();
+        let qr = values.col_piv_qr();
         let mut values = qr.r();
         let count = (0..values.nrows()).take_while(|n| values[(*n, *n)].powi(2) > NEGLIGIBLE).count();
         qr.p().inv_permute_columns(&mut values);
         qr.q_tr_mul(&mut off);
         let beyond = off.rows(count, off.len() - count).norm_squared();
         Self {
-            values: values.rows(0, count).transpose(),
+            values: values.rows(0, count).into_owned(),
             off: off.rows(0, count).into_owned(),
             left: left + beyond,
         }
@@ -228,7 +231,7 @@ impl Informed {
         let Eigen { values, vectors } = Eigen::of_symmetric(information);
         let mut kept: Vec<usize> = (0..values.len()).filter(|n| values[*n] > NEGLIGIBLE).collect();
         kept.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
-        let informed = DMatrix::from_fn(by_logit.ncols(), kept.len(), |band, n| {
+        let informed = DMatrix::from_fn(kept.len(), by_logit.ncols(), |n, band| {
             values[kept[n]].sqrt() * vectors[(band, kept[n])]
         });
         let off = kept.iter().map(|n| vectors.column(*n).dot(&off) / values[*n].sqrt());
@@ -240,14 +243,13 @@ impl Informed {
     /// The first values alone, at most `count`.
     fn first(&self, count: usize) -> Self {
         let count = count.min(self.off.len());
-        let (values, off) =
-            (self.values.columns(0, count).into_owned(), self.off.rows(0, count).into_owned());
+        let (values, off) = (self.values.rows(0, count).into_owned(), self.off.rows(0, count).into_owned());
         Self { values, off, left: self.left }
     }
 
     /// Covariance of the values by deviations of spectra beyond any class.
     fn by_beyond(&self, prior: &Prior) -> DMatrix<f64> {
-        dot_products(&self.values, &product(prior.beyond(), &self.values))
+        product_with_transposed(&product(&self.values, prior.beyond()), &self.values)
     }
 }
 
@@ -255,7 +257,7 @@ impl Informed {
 struct LinearClass {
     /// Offset from the mean of the class.
     off: DVector<f64>,
-    /// Covariance of the values under the class, without deviations of spectra beyond it.
+    /// Covariance of the values under the class, without deviations of spectra beyond it: its lower triangle.
     by_class: DMatrix<f64>,
 }
 
@@ -272,9 +274,10 @@ struct AtWidths {
 
 impl LinearClass {
     fn new(informed: &Informed, logit: &DVector<f64>, class: &Class) -> Self {
-        let off = &informed.off + informed.values.tr_mul(&(logit - class.mean()));
-        let own = dot_products(class.own(), &informed.values);
-        Self { off, by_class: dot_products(&own, &own) }
+        let mut off = informed.off.clone();
+        add_product(&mut off, &informed.values, &(logit - class.mean()));
+        let own = product_with_transposed(&informed.values, class.own());
+        Self { off, by_class: squares_of_rows(&own) }
     }
 
     /// The log evidence at a width; `None` if it is not finite.
@@ -289,16 +292,16 @@ impl LinearClass {
             .zip_map(by_beyond, |by_class, by_beyond| scale * (by_class + roughness * by_beyond));
         let mut off = self.off.clone();
         let (mut cost, mut ln_determinant) = (0.0, 0.0);
-        for n in 0..off.len() {
-            let variance = left[(n, n)] + 1.0;
+        let count = off.len();
+        for n in 0..count {
+            let (own, rest) = left.as_mut_slice()[n * count..].split_at_mut(count);
+            let variance = own[n] + 1.0;
             cost += off[n].powi(2) / variance;
             ln_determinant += f64::ln(variance);
-            for column in n + 1..off.len() {
-                let share = left[(column, n)] / variance;
+            for (column, rest) in (n + 1..count).zip(rest.chunks_exact_mut(count)) {
+                let share = own[column] / variance;
                 off[column] -= share * off[n];
-                for row in column..off.len() {
-                    left[(row, column)] -= share * left[(row, n)];
-                }
+                rest[column..].iter_mut().zip(&own[column..]).for_each(|(left, own)| *left -= share * own);
             }
         }
         let ln_evidence = -0.5 * (cost + ln_determinant);
@@ -407,7 +410,7 @@ impl<H: Copy> Candidate<H> {
     /// The point of linearisation in the coordinates of a Gaussian, as closely as possible.
     fn in_coordinates_of(&self, own: &Gaussian) -> Option<DVector<f64>> {
         let (basis, linear) = (own.basis(), &self.linear);
-        let mut information = basis.tr_mul(basis);
+        let mut information = squares(basis);
         (0..information.nrows()).for_each(|i| information[(i, i)] += NEARLY.powi(2));
         let spectrum = cholesky(information)?.solve(&basis.tr_mul(&(&linear.logit - own.mean())));
         Some(stacked(&spectrum, &linear.others))
@@ -417,12 +420,12 @@ impl<H: Copy> Candidate<H> {
     pub fn maximum(&self, own: &Gaussian) -> Option<LinearMode> {
         let linear = &self.linear;
         let away = &linear.logit - own.mean();
-        let spread = dot_products(&linear.informed.values, own.basis());
-        let mut covariance = &spread * spread.transpose();
+        let values = &linear.informed.values;
+        let spread = product(values, own.basis());
+        let mut covariance = squares_of_rows(&spread);
         (0..covariance.nrows()).for_each(|n| covariance[(n, n)] += 1.0);
         let factor = cholesky(covariance)?;
-        let spectrum =
-            spread.tr_mul(&factor.solve(&(&linear.informed.off + linear.informed.values.tr_mul(&away))));
+        let spectrum = spread.tr_mul(&factor.solve(&(&linear.informed.off + values * &away)));
         let left = &linear.residuals + &linear.by_logit * (away - own.basis() * &spectrum);
         let w = stacked(&spectrum, &linear.of_others.solve(&linear.by_others.tr_mul(&left)));
         let ln_determinant = factor.ln_determinant() + linear.ln_determinant;

@@ -8,6 +8,7 @@ use super::built_in::{TabledClass, classes_on};
 use super::classes::{divide, moments, shrunk};
 use super::gaussian::{Gaussian, logit};
 use crate::error::{Error, Result, counted};
+use crate::solve::dense::transposed_product;
 use crate::solve::ln_sum;
 
 /// Correlation length and standard deviation, in logit, of deviations of spectra from the set behind a prior,
@@ -64,7 +65,7 @@ impl Class {
         &self.mean
     }
 
-    /// Waveband by factor: a square root of the covariance of the class, without deviations of spectra beyond
+    /// Factor by waveband: a square root of the covariance of the class, without deviations of spectra beyond
     /// it.
     #[must_use]
     pub fn own(&self) -> &DMatrix<f64> {
@@ -85,7 +86,7 @@ impl Class {
 
     fn as_rough_as(&self, roughness: f64) -> Gaussian {
         let beyond = roughness.powi(2) * &*self.beyond;
-        Gaussian::new(self.mean.clone(), &(&self.own * self.own.transpose() + beyond))
+        Gaussian::new(self.mean.clone(), &(transposed_product(&self.own, &self.own) + beyond))
     }
 }
 
@@ -109,7 +110,9 @@ impl Prior {
             return Err(Error::Numeric("the table of the built-in prior is empty".to_owned()));
         };
         let beyond = Arc::new(beyond_class(wavelengths_nm));
-        let class = |TabledClass { ln_share, mean, factors }| Class::new(ln_share, mean, factors, &beyond);
+        let class = |TabledClass { ln_share, mean, factors }| {
+            Class::new(ln_share, mean, factors.transpose(), &beyond)
+        };
         let of_all = &all.factors * all.factors.transpose() + matern(wavelengths_nm);
         Ok(Self {
             broad: Gaussian::new(all.mean, &of_all),
@@ -151,7 +154,7 @@ impl Prior {
             let count = members.len() as f64;
             let (mean, own) =
                 moments(&logits.select_columns(&members), &RowDVector::from_element(members.len(), 1.0));
-            let own = factor(&shrunk(&own, count, &covariance));
+            let own = factor(&shrunk(&own, count, &covariance)).transpose();
             Class::new((count / spectra.len() as f64).ln(), mean, own, &beyond)
         };
         let last = classes.iter().copied().max().unwrap_or(0);
@@ -271,7 +274,7 @@ mod tests {
     fn a_rough_class_has_more_beyond_it() {
         let prior = Prior::built_in(&[400.0, 450.0, 550.0, 650.0, 700.0]).unwrap();
         let class = &prior.classes()[3];
-        let own = class.own() * class.own().transpose();
+        let own = class.own().tr_mul(class.own());
         let gaussians = ROUGHNESSES.iter().enumerate().map(|(n, (times, _))| (*times, class.rough(n)));
         for (times, gaussian) in gaussians.chain([(1.0, class.gaussian())]) {
             let covariance = gaussian.basis() * gaussian.basis().transpose();

@@ -4,8 +4,11 @@
 use std::ops::Range;
 use std::slice::ChunksExact;
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector, Dim, Dyn, Matrix, VecStorage};
 use pulp::{Arch, Simd, WithSimd};
+
+/// A matrix or, with one column, a vector.
+pub type Columns<C> = Matrix<f64, Dyn, C, VecStorage<f64, Dyn, C>>;
 
 /// Adds a multiple of other values.
 pub fn add(sum: &mut [f64], share: f64, values: &[f64]) {
@@ -25,14 +28,14 @@ pub fn rms(values: &DVector<f64>) -> f64 {
 }
 
 /// Columns as slices, which compile to faster loops than matrices.
-pub fn columns(matrix: &DMatrix<f64>) -> ChunksExact<'_, f64> {
+pub fn columns<C: Dim>(matrix: &Columns<C>) -> ChunksExact<'_, f64> {
     matrix.as_slice().chunks_exact(matrix.nrows().max(1))
 }
 
 /// Adds the product of two matrices, the second with few columns.
-pub fn add_product(sum: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
+pub fn add_product<C: Dim>(sum: &mut Columns<C>, a: &DMatrix<f64>, b: &Columns<C>) {
     Arch::new().dispatch(|| {
-        for (sum, shares) in sum.as_mut_slice().chunks_exact_mut(a.nrows()).zip(columns(b)) {
+        for (sum, shares) in sum.as_mut_slice().chunks_exact_mut(a.nrows().max(1)).zip(columns(b)) {
             for (column, share) in columns(a).zip(shares) {
                 sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += share * value);
             }
@@ -74,16 +77,17 @@ pub fn product_with_transposed(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f6
 /// # Panics
 /// If both have not as many rows.
 #[must_use]
-pub fn dot_products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn dot_products<C: Dim>(a: &DMatrix<f64>, b: &Columns<C>) -> Columns<C> {
     assert_eq!(a.nrows(), b.nrows(), "rows of factors");
-    let mut products = DMatrix::zeros(a.ncols(), b.ncols());
-    Arch::new().dispatch(DotProducts { a, b, products: products.as_mut_slice() });
-    products
+    let (_, columns) = b.shape_generic();
+    let mut products = vec![0.0; a.ncols() * columns.value()];
+    Arch::new().dispatch(DotProducts { a, b: b.as_slice(), products: &mut products });
+    Matrix::from_data(VecStorage::new(Dyn(a.ncols()), columns, products))
 }
 
 struct DotProducts<'a> {
     a: &'a DMatrix<f64>,
-    b: &'a DMatrix<f64>,
+    b: &'a [f64],
     products: &'a mut [f64],
 }
 
@@ -93,7 +97,8 @@ impl WithSimd for DotProducts<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { a, b, products } = self;
-        for (products, b) in products.chunks_exact_mut(a.ncols().max(1)).zip(columns(b)) {
+        let b = b.chunks_exact(a.nrows().max(1));
+        for (products, b) in products.chunks_exact_mut(a.ncols().max(1)).zip(b) {
             let (vectors_b, rest_b) = S::as_simd_f64s(b);
             let rest_b = simd.partial_load_f64s(rest_b);
             for (product, a) in products.iter_mut().zip(columns(a)) {
@@ -129,10 +134,15 @@ pub fn add_rows(
 /// The lower triangle of `aᵀa`; what is above the diagonal means nothing.
 #[must_use]
 pub fn squares(a: &DMatrix<f64>) -> DMatrix<f64> {
-    let (count, transposed) = (a.ncols(), a.transpose());
+    squares_of_rows(&a.transpose())
+}
+
+/// The lower triangle of `a·aᵀ`; what is above the diagonal means nothing.
+#[must_use]
+pub fn squares_of_rows(a: &DMatrix<f64>) -> DMatrix<f64> {
+    let (count, values) = (a.nrows(), a.as_slice());
     let mut squares = DMatrix::zeros(count, count);
-    let values = transposed.as_slice();
-    let factors = Factors { left: values, right: values, heights: [count; 2], inner: 0..a.nrows() };
+    let factors = Factors { left: values, right: values, heights: [count; 2], inner: 0..a.ncols() };
     for (sum, first) in
         squares.as_mut_slice().chunks_mut((BLOCK * count).max(1)).zip((0..count).step_by(BLOCK))
     {
@@ -344,6 +354,8 @@ impl Factors<'_> {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DVector;
+
     use super::*;
 
     fn matrix(rows: usize, columns: usize) -> DMatrix<f64> {
@@ -366,6 +378,11 @@ mod tests {
             let whole = a.tr_mul(&a);
             let lower = squares(&a);
             assert!((lower.lower_triangle() - whole.lower_triangle()).amax() < 1e-12);
+            let weights = DVector::from_fn(rows, |row, _| (row as f64).cos());
+            assert!((dot_products(&a, &weights) - a.tr_mul(&weights)).amax() < 1e-12);
+            let mut sum = weights.clone();
+            add_product(&mut sum, &a, &DVector::from_element(inner, 0.5));
+            assert!((sum - weights - 0.5 * a.column_sum()).amax() < 1e-12);
             let mut definite = whole;
             (0..inner).for_each(|n| definite[(n, n)] += 1.0);
             let factor = cholesky(definite.clone()).unwrap().l();
@@ -379,7 +396,11 @@ mod tests {
     fn matrices_may_be_empty() {
         for (rows, inner, columns) in [(0, 3, 2), (3, 0, 2), (3, 2, 0), (0, 0, 0)] {
             let expected = DMatrix::zeros(rows, columns);
-            assert_eq!(product(&matrix(rows, inner), &matrix(inner, columns)), expected);
+            let (a, b) = (matrix(rows, inner), matrix(inner, columns));
+            assert_eq!(product(&a, &b), expected);
+            let mut sum = expected.clone();
+            add_product(&mut sum, &a, &b);
+            assert_eq!(sum, expected);
         }
         assert_eq!(squares(&matrix(0, 2)), DMatrix::zeros(2, 2));
         assert_eq!(squares(&matrix(2, 0)).len(), 0);

@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::dense::cholesky;
+use super::dense::{cholesky, dot_products};
 use super::ln_sum;
 use super::posterior::{GaussNewton, Model, Solution, cost};
 
@@ -56,7 +56,7 @@ impl<'a> ScoreTest<'a> {
     }
 
     fn bend(&self, change: &DVector<f64>) -> f64 {
-        let by_unknowns = self.weight * self.jacobian.tr_mul(change);
+        let by_unknowns = self.weight * dot_products(self.jacobian, change);
         self.weight * change.norm_squared() - by_unknowns.dot(&self.information.solve(&by_unknowns))
     }
 }

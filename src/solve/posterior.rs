@@ -18,7 +18,7 @@ use std::sync::OnceLock;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::Termination;
-use super::dense::{cholesky, squares};
+use super::dense::{cholesky, dot_products, squares};
 
 /// Initial noise as a share of the residual at the start.
 const FIRST_SHARE: f64 = 0.3;
@@ -305,7 +305,7 @@ pub(super) struct GaussNewton {
 impl GaussNewton {
     /// From a point; `None` if the model is not finite.
     pub(super) fn at<S>(w: &DVector<f64>, at: &Linearised<S>, weight: f64) -> Option<Self> {
-        let descent = weight * at.jacobian.tr_mul(&at.residuals) - w;
+        let descent = weight * dot_products(&at.jacobian, &at.residuals) - w;
         let hessian = at.gauss_newton(weight);
         let factor = cholesky(hessian.clone())?;
         let direction = factor.solve(&descent);
@@ -394,7 +394,8 @@ impl<M: Model> Search<'_, M> {
         let enough = before - KEPT * (before - cost(&w, &foreseen));
         for _ in 0..CORRECTIONS {
             let unforeseen = &at.residuals - &foreseen;
-            let corrected = &w + newton.factor.solve(&(newton.weight * self.at.jacobian.tr_mul(&unforeseen)));
+            let off = newton.weight * dot_products(&self.at.jacobian, &unforeseen);
+            let corrected = &w + newton.factor.solve(&off);
             let at_corrected = self.model.evaluate(&corrected);
             let after_correction = cost(&corrected, &at_corrected.residuals);
             if after_correction.partial_cmp(&after) != Some(Ordering::Less) {

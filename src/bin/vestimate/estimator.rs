@@ -168,7 +168,7 @@ impl Transform for Estimator<'_> {
                 (flat.estimate(&sheet)?, None, flat.to_string())
             }
         };
-        self.finish(context, sample, (&estimate, verdict.as_ref()), &how, &[])
+        self.finish(context, sample, &noise, (&estimate, verdict.as_ref()), &how, &[])
     }
 
     fn is_made(&self, sample: &Sample, kept: &Sample) -> bool {
@@ -279,24 +279,23 @@ impl<'a> Estimator<'a> {
         self.asked.args.fit.is_empty() || self.asks_for_auto()
     }
 
-    /// Adds an estimate made by the method `how`, with its verdict, and the ids of all `joined` samples if
-    /// there were several.
+    /// Adds an estimate made from facets of this noise by the method `how`, with its verdict, and the ids of
+    /// all `joined` samples if there were several.
     pub fn finish(
         &self,
         context: &Context,
         sample: &mut Sample,
+        noise: &Noise,
         (estimate, verdict): (&Estimate, Option<&Verdict>),
         how: &str,
         joined: &[String],
     ) -> Result<Made> {
-        let noise = self.asked.noise(sample)?;
         if self.asked.args.common.verbose {
             let (id, exposure) = (sample.id(), self.asked.exposure_of(sample)?);
             cli::say("vestimate", &format!("{id}: {how}; {}", messages::outcome(estimate, exposure)));
         }
         // methods that do not weight facets know their noise nevertheless
-        let rms =
-            || Ok(Deviations::of(&noise, context.inference.model.facets(), &sample.facet_rgb()?)?.rms());
+        let rms = || Ok(Deviations::of(noise, context.inference.model.facets(), &sample.facet_rgb()?)?.rms());
         refuse_unexplained(estimate, || verdict.map_or_else(rms, |_| Ok(1.0)))?;
         let (method, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
@@ -309,7 +308,7 @@ impl<'a> Estimator<'a> {
             prior,
             wavelengths_nm: &context.inference.wavelengths_nm,
             estimate,
-            noise: verdict.map(|_| &noise),
+            noise: verdict.map(|_| noise),
             joined,
             verdict,
             with_covariance,

@@ -175,7 +175,8 @@ impl Together for Estimator<'_> {
                 photograph: Some(&photograph),
             };
             let Measurement { estimate, verdict, .. } = one.context.inference.share(&facets, estimate);
-            self.finish(&one.context, &mut one.sample, (&estimate, Some(&verdict)), &how, &ids)
+            let noise = self.asked.noise(&one.sample)?;
+            self.finish(&one.context, &mut one.sample, &noise, (&estimate, Some(&verdict)), &how, &ids)
         };
         estimates.map(joined).collect()
     }

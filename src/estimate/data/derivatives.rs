@@ -8,13 +8,23 @@ use crate::estimate::Exposure;
 use crate::estimate::emission::EXCITING_PLACE;
 use crate::estimate::emission::terms::{Made, made};
 use crate::estimate::unknowns::{Amounts, Normal};
+use crate::solve::dense::dot_products;
 
 /// Data minus model, in units of the noise.
 pub struct Residuals {
     /// Data minus model.
     pub residuals: DVector<f64>,
+    /// The model.
+    pub predicted: Predicted,
+}
+
+/// The model of the data at a point.
+pub struct Predicted {
     /// The exposure used.
     pub exposure: f64,
+    amounts: Amounts,
+    /// The model of each source at exposure 1 and amount 1.
+    parts: DMatrix<f64>,
 }
 
 /// Residuals and the derivatives of the model: a column per waveband for its reflectance, then one per
@@ -40,12 +50,9 @@ pub struct FittedExposure {
     pub sd: f64,
 }
 
-/// Ingredients of second derivatives at a point: exposure, amounts of the sources, the model of each source
-/// at exposure 1, and derivatives of the terms.
+/// Ingredients of second derivatives at a point: the model, and derivatives of the terms.
 pub struct SecondDerivatives {
-    exposure: f64,
-    amounts: Amounts,
-    parts: DMatrix<f64>,
+    predicted: Predicted,
     slopes: DMatrix<f64>,
     curvatures: DMatrix<f64>,
     emitted: Option<Emitted>,
@@ -78,35 +85,42 @@ impl FacetData<'_> {
             let made = made(reflectance, &terms, &poles, how);
             terms += scaled_rows(&made, emission.at(w).fraction.as_slice());
         }
-        let amounts = self.scene.amounts(unknowns).values();
-        let values = self.channels.parts_of(&terms) * &amounts;
-        let exposure = self.exposure_of(&values, || self.sum_of(&terms, &amounts).sum());
-        Residuals { residuals: self.left_over(exposure, &values), exposure }
+        let (amounts, parts) = (self.scene.amounts(unknowns), self.channels.parts_of(&terms));
+        let now = amounts.values();
+        let values = &parts * &now;
+        let exposure = self.exposure_of(&values, || self.sum_of(&terms, &now).sum());
+        let residuals = self.left_over(exposure, &values);
+        Residuals { residuals, predicted: Predicted { exposure, amounts, parts } }
     }
 
     /// Residuals at a point, with the derivatives of the model.
+    #[must_use]
+    pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
+        self.derivatives(reflectance, unknowns, self.residuals(reflectance, unknowns))
+    }
+
+    /// The same, given the residuals there.
     ///
     /// # Source
     /// For an unknown exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15,
     /// 1975, p. 49). The prior on its logarithm is one more datum, which depends on nothing but the exposure.
     #[must_use]
-    pub fn linearise(&self, reflectance: &[f64], unknowns: &[f64]) -> LinearisedFacets {
-        let [mut terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
+    pub fn derivatives(&self, reflectance: &[f64], unknowns: &[f64], at: Residuals) -> LinearisedFacets {
+        let [terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
         let emitted = self.emitted(reflectance, unknowns, [&terms, &slopes, &curvatures]);
         if let Some(Emitted { sent, made, .. }) = &emitted {
-            terms += scaled_rows(&made.terms, sent.fraction.as_slice());
             slopes += scaled_rows(&made.slopes, sent.fraction.as_slice());
             curvatures += scaled_rows(&made.curvatures, sent.fraction.as_slice());
         }
-        let (amounts, parts) = (self.scene.amounts(unknowns), self.channels.parts_of(&terms));
+        let Residuals { residuals, predicted } = at;
+        let Predicted { exposure, amounts, parts } = &predicted;
         let (now, by_unknown) = (amounts.values(), amounts.slopes());
-        let values = &parts * &now;
-        let exposure = self.exposure_of(&values, || self.sum_of(&terms, &now).sum());
+        let exposed = *exposure * &now;
         let (bands, scene) = (slopes.nrows(), by_unknown.ncols());
-        let mut jacobian = self.channels.columns_of(&slopes, &now, self.unknowns());
-        jacobian.columns_mut(bands, scene).gemm(1.0, &parts, &by_unknown, 0.0);
+        let mut jacobian = self.channels.columns_of(&slopes, &exposed, self.unknowns());
+        jacobian.columns_mut(bands, scene).gemm(*exposure, parts, &by_unknown, 0.0);
         if let Some(Emitted { sent, exciting, made: Made { terms, .. } }) = &emitted {
-            let column = |terms: &DMatrix<f64>| self.channels.parts_of(terms) * &now;
+            let column = |terms: &DMatrix<f64>| self.channels.parts_of(terms) * &exposed;
             for (n, by) in sent.slopes.column_iter().enumerate() {
                 let column = column(&scaled_rows(terms, by.as_slice()));
                 jacobian.column_mut(bands + scene + n).copy_from(&column);
@@ -115,28 +129,29 @@ impl FacetData<'_> {
             let column = column(&scaled_rows(&by_exciting, sent.fraction.as_slice()));
             jacobian.column_mut(bands + scene + EXCITING_PLACE).copy_from(&column);
         }
-        jacobian *= exposure;
         // Effect of a relative change of the exposure.
-        let mut by_exposure = exposure * &values;
+        let mut by_exposure = parts * exposed;
         if let Exposure::Expected(Normal { sd, .. }) = self.exposure {
+            let data = by_exposure.len();
             by_exposure = by_exposure.push(sd.recip());
-            jacobian = jacobian.insert_row(values.len(), 0.0);
+            jacobian = jacobian.insert_row(data, 0.0);
         }
         let square = by_exposure.norm_squared().max(f64::MIN_POSITIVE);
         let (relative, sd) = match self.exposure {
             Exposure::Known(_) => (DVector::zeros(jacobian.ncols()), 0.0),
             Exposure::Free | Exposure::Expected(_) => {
-                (jacobian.tr_mul(&by_exposure) / square, exposure / square.sqrt())
+                (dot_products(&jacobian, &by_exposure) / square, exposure / square.sqrt())
             }
+            // with sums no emission is considered, which these terms lack
             Exposure::Sum => (self.shares_of_sum(&terms, &slopes, &now, &by_unknown), 0.0),
         };
         // Effect of a change of the spectrum beyond what a change of exposure compensates.
         jacobian.ger(-1.0, &by_exposure, &relative, 1.0);
         LinearisedFacets {
-            residuals: self.left_over(exposure, &values),
+            residuals,
             jacobian,
-            exposure: FittedExposure { value: exposure, slopes: -exposure * relative, sd },
-            second: SecondDerivatives { exposure, amounts, parts, slopes, curvatures, emitted },
+            exposure: FittedExposure { value: *exposure, slopes: -*exposure * relative, sd },
+            second: SecondDerivatives { predicted, slopes, curvatures, emitted },
         }
     }
 
@@ -144,19 +159,20 @@ impl FacetData<'_> {
     #[must_use]
     pub fn curvature(&self, at: &SecondDerivatives, multipliers: &DVector<f64>) -> Curvature {
         let multipliers = &self.of_facets(multipliers).into_owned();
-        let (now, by_unknown) = (at.amounts.values(), at.amounts.slopes());
+        let Predicted { exposure, amounts, parts } = &at.predicted;
+        let (now, by_unknown) = (amounts.values(), amounts.slopes());
         let mixed = by_unknown
             .column_iter()
-            .map(|amounts| at.exposure * self.channels.along(multipliers, &at.slopes, &amounts.into_owned()));
+            .map(|amounts| *exposure * self.channels.along(multipliers, &at.slopes, &amounts.into_owned()));
         let mut mixed: Vec<_> = mixed.collect();
         let scene = self.scene.unknowns().len();
         let mut unknowns = DMatrix::zeros(self.unknowns(), self.unknowns());
         unknowns
             .view_mut((0, 0), (scene, scene))
-            .copy_from(&(at.exposure * at.amounts.curvature(&at.parts.tr_mul(multipliers))));
+            .copy_from(&(*exposure * amounts.curvature(&parts.tr_mul(multipliers))));
         if let Some(Emitted { sent, exciting, made: Made { terms, slopes, .. } }) = &at.emitted {
             let along = |terms: &DMatrix<f64>, amounts: &DVector<f64>| {
-                at.exposure * self.channels.along(multipliers, terms, amounts)
+                *exposure * self.channels.along(multipliers, terms, amounts)
             };
             let by_fraction = along(terms, &now);
             let count = sent.slopes.ncols();
@@ -181,8 +197,8 @@ impl FacetData<'_> {
             mixed[place] = sent.fraction.component_mul(&along(&slopes_by_exciting, &now));
         }
         Curvature {
-            slopes: at.exposure * self.channels.along(multipliers, &at.slopes, &now),
-            reflectance: at.exposure * self.channels.along(multipliers, &at.curvatures, &now),
+            slopes: *exposure * self.channels.along(multipliers, &at.slopes, &now),
+            reflectance: *exposure * self.channels.along(multipliers, &at.curvatures, &now),
             mixed: if mixed.is_empty() {
                 DMatrix::zeros(at.slopes.nrows(), 0)
             } else {

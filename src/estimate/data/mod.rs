@@ -9,7 +9,7 @@ mod emitting;
 
 use std::borrow::Cow;
 
-pub use derivatives::{Curvature, FittedExposure, LinearisedFacets, Residuals, SecondDerivatives};
+pub use derivatives::{Curvature, FittedExposure, LinearisedFacets, Predicted, Residuals, SecondDerivatives};
 use nalgebra::{DVector, DVectorView};
 
 use super::channels::Channels;

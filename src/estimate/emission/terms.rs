@@ -48,10 +48,11 @@ impl Made {
             0 => [1.0, 0.0, 0.0],
             _ => [r.powi(power), p * r.powi(power - 1), p * (p - 1.0) * r.powi(power - 2)],
         };
+        let of_r: Vec<_> = reflectance.iter().map(|r| of_r(*r)).collect();
         let mut made = terms.map(Clone::clone);
         for (term, (pole, factor)) in poles.iter().zip(&exciting.factors).enumerate() {
-            for (n, r) in reflectance.iter().enumerate() {
-                let [value, slope, bend] = of_r(*r).map(|of_r| factor * of_r);
+            for (n, of_r) in of_r.iter().enumerate() {
+                let [value, slope, bend] = of_r.map(|of_r| factor * of_r);
                 let [t, by, twice] = terms.map(|of| pole * of[(n, term)]);
                 made[0][(n, term)] = value * (1.0 + t);
                 made[1][(n, term)] = slope * (1.0 + t) + value * by;
@@ -70,10 +71,12 @@ pub fn made(
     poles: &[f64],
     (power, factors): (i32, &[f64]),
 ) -> DMatrix<f64> {
+    let powers: Vec<f64> = reflectance.iter().map(|r| r.powi(power)).collect();
     let mut made = terms.clone();
-    for (mut column, (pole, factor)) in made.column_iter_mut().zip(poles.iter().zip(factors)) {
-        for (t, r) in column.iter_mut().zip(reflectance) {
-            *t = factor * r.powi(power) * (1.0 + pole * *t);
+    let columns = made.as_mut_slice().chunks_exact_mut(powers.len().max(1));
+    for (column, (pole, factor)) in columns.zip(poles.iter().zip(factors)) {
+        for (t, of_r) in column.iter_mut().zip(&powers) {
+            *t = factor * of_r * (1.0 + pole * *t);
         }
     }
     made
