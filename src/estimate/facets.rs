@@ -108,15 +108,13 @@ impl SpectrumModel for Facets<'_> {
 
     /// Reflectances, unknowns of the scene in their own units, exposure and, if emission is considered, the
     /// emission as a fraction of white.
-    fn values(&self, w: &DVector<f64>) -> Vec<f64> {
-        let (logit, unknowns) = self.split(w);
-        let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        let exposure = self.data.residuals(&reflectance, unknowns.as_slice()).predicted.exposure;
-        let sent = self.sent(&reflectance, &unknowns);
+    fn values(&self, _: &DVector<f64>, at: &Evaluated<Point>) -> Vec<f64> {
+        let Point { reflectance, unknowns, predicted } = &at.ingredients;
         let of_scene =
-            self.data.scene().unknowns().iter().zip(&unknowns).map(|(expected, w)| expected.at(*w).0);
-        let sent = sent.into_iter().flat_map(|sent| Vec::from(sent.fraction.data));
-        reflectance.into_iter().chain(of_scene).chain([exposure]).chain(sent).collect()
+            self.data.scene().unknowns().iter().zip(unknowns).map(|(expected, w)| expected.at(*w).0);
+        let sent =
+            self.sent(reflectance, unknowns).into_iter().flat_map(|sent| Vec::from(sent.fraction.data));
+        reflectance.iter().copied().chain(of_scene).chain([predicted.exposure]).chain(sent).collect()
     }
 
     fn spread(&self, w: &DVector<f64>, at: &Linearised<Second>) -> Option<DMatrix<f64>> {

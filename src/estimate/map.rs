@@ -136,7 +136,8 @@ impl<'a> Sheet<'_, 'a> {
         let every: Vec<usize> = (0..self.lights.len().max(1)).collect();
         let lit = Alternatives::of(every.iter().map(|light| move || in_light(*light)));
         let start = (start, f64::NEG_INFINITY);
-        let mut all = lights_in_order((self.lights, &every), &lit, self.prior, start, trace);
+        let (mut all, more) = lights_in_order((self.lights, &every), &lit, self.prior, start);
+        trace.extend(more);
         let [nothing, ..] = self.data.scene().emissions() else { return all };
         let possible = if may_emit { self.possible(&all) } else { BTreeSet::new() };
         if possible.is_empty() {
@@ -158,8 +159,9 @@ impl<'a> Sheet<'_, 'a> {
             let start =
                 plain.as_ref().map(|w| w.clone().resize_vertically(w.len() + emission.unknowns(), 0.0));
             let excited: Vec<usize> = excited.collect();
-            let mut lit =
-                lights_in_order((self.lights, &excited), &lit, self.prior, (start, most(&all)), trace);
+            let start = (start, most(&all));
+            // most sheets show no sign of emission: searches for it are no part of the trace
+            let (mut lit, _) = lights_in_order((self.lights, &excited), &lit, self.prior, start);
             lit.retain(|one| explains(&one.data, &one.sorted, self.tempering));
             all.append(&mut lit);
         }

@@ -53,7 +53,7 @@ impl<H: Copy, S> LocalMode<H, S> {
             .map_or(f64::NEG_INFINITY, |ln_evidence| ln_evidence + model.ln_whitening() + start.ln_share);
         Self {
             ln_evidence,
-            values: model.values(&solution.w),
+            values: model.values(&solution.w, &model.evaluate(&solution.w)),
             spread: model.spread(&solution.w, &solution.at),
             rms: model.rms(&solution.at.residuals),
             surprise: solution.surprise(1.0),
@@ -84,8 +84,9 @@ impl<H: Copy> Unsearched<H> {
         let gaussian = candidate.gaussian(prior);
         let LinearMode { w, ln_evidence_of_fit } = candidate.maximum(&gaussian)?;
         let model = family.model(hypothesis, &gaussian)?;
-        let ln_evidence = ln_evidence_of_fit - 0.5 * model.residuals(&w).norm_squared();
-        ln_evidence.is_finite().then(|| Self { hypothesis, ln_evidence, values: model.values(&w) })
+        let at = model.evaluate(&w);
+        let ln_evidence = ln_evidence_of_fit - 0.5 * at.residuals.norm_squared();
+        ln_evidence.is_finite().then(|| Self { hypothesis, ln_evidence, values: model.values(&w, &at) })
     }
 }
 

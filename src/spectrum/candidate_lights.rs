@@ -96,9 +96,7 @@ fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Ve
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn candidate_lights() -> Result<Vec<CandidateLight>> {
-    let mut lights = candidate_lights_and_between()?;
-    lights.retain(|light| !light.is_between);
-    Ok(lights)
+    spaced(STEP_MIRED / FINE_STEP_MIRED, |is_between| !is_between)
 }
 
 /// The same lights, and those [between](CandidateLight::is_between) them.
@@ -106,7 +104,7 @@ pub fn candidate_lights() -> Result<Vec<CandidateLight>> {
 /// # Errors
 /// As [`candidate_lights`].
 pub fn candidate_lights_and_between() -> Result<Vec<CandidateLight>> {
-    spaced(STEP_MIRED / FINE_STEP_MIRED)
+    spaced(STEP_MIRED / FINE_STEP_MIRED, |_| true)
 }
 
 /// The same lights, all of them as close as those between others.
@@ -114,11 +112,11 @@ pub fn candidate_lights_and_between() -> Result<Vec<CandidateLight>> {
 /// # Errors
 /// As [`candidate_lights`].
 pub fn fine_candidate_lights() -> Result<Vec<CandidateLight>> {
-    spaced(1)
+    spaced(1, |_| true)
 }
 
-/// All lights, of which one in `steps` of a series of temperatures is not between others.
-fn spaced(steps: usize) -> Result<Vec<CandidateLight>> {
+/// Lights, of which one in `steps` of a series of temperatures is not between others, if they are `wanted`.
+fn spaced(steps: usize, wanted: fn(bool) -> bool) -> Result<Vec<CandidateLight>> {
     let of_kind = |kind: &Kind| {
         let lights = (kind.lights)();
         let is_between = |(n, (_, cct_k)): (usize, &(String, Option<f64>))| cct_k.is_some() && n % steps > 0;
@@ -129,7 +127,7 @@ fn spaced(steps: usize) -> Result<Vec<CandidateLight>> {
             let share = if is_between { share / steps as f64 } else { share };
             Ok(CandidateLight { spectrum: illuminant(&name)?, share, cct_k, is_any_daylight, is_between })
         };
-        lights.into_iter().zip(between).map(light)
+        lights.into_iter().zip(between).filter(move |(_, is_between)| wanted(*is_between)).map(light)
     };
     SOURCES.iter().flat_map(of_kind).collect()
 }

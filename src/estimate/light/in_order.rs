@@ -19,7 +19,7 @@ const LN_EVIDENCE_BETWEEN: f64 = -20.0;
 const DISTINCT_ODDS: usize = 48;
 
 /// Facets in each of these lights, in order of evidence under all spectra, each started from the result of
-/// its neighbour, without lights that are hopeless beside one of log evidence `best`.
+/// its neighbour, without lights that are hopeless beside one of log evidence `best`; and the trace.
 ///
 /// # Arguments
 /// - `lights`: all lights, or none for the stated one alone; `tried`: indices of those that are tried;
@@ -30,8 +30,7 @@ pub fn lights_in_order<'a>(
     family: &Alternatives<'_, 'a>,
     prior: &Prior,
     (start, best): (Option<DVector<f64>>, f64),
-    trace: &mut Trace,
-) -> Vec<Lit<'a>> {
+) -> (Vec<Lit<'a>>, Trace) {
     let found = (0..lights.len().max(1)).map(|_| None).collect();
     let mut all = Series { lights, search: Search::new(family, prior), found, start, best };
     let is_between = |light: usize| lights.get(light).is_some_and(|light| light.is_between);
@@ -46,8 +45,7 @@ pub fn lights_in_order<'a>(
             all.refine(first, next);
         }
     }
-    let Series { search, found, .. } = all;
-    trace.extend(search.trace);
+    let Series { search: Search { trace, .. }, found, .. } = all;
     let mut found: Vec<_> = found.into_iter().flatten().collect();
     found.sort_by(Sorted::order);
     let most = found.first().map_or(best, |first| first.ln_weight().max(best));
@@ -57,7 +55,7 @@ pub fn lights_in_order<'a>(
         let light = sorted.hypothesis;
         Lit { light, data: family.get(light).clone(), sorted: sorted.for_hypothesis(()) }
     };
-    found.into_iter().map(of).collect()
+    (found.into_iter().map(of).collect(), trace)
 }
 
 /// Lights in a row, and their modes as far as they were searched.

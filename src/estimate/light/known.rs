@@ -176,8 +176,10 @@ impl KnownSheet {
         let solution = find_mode(&model, start, (first, 1.0), TOLERANCE, LIMIT);
         solution.ln_evidence(1.0).filter(|ln| ln.is_finite())?;
         let exposure = if data.fits_exposure() {
-            let (value, spread) =
-                (*model.values(&solution.w).last()?, model.spread(&solution.w, &solution.at)?);
+            let (value, spread) = (
+                *model.values(&solution.w, &model.evaluate(&solution.w)).last()?,
+                model.spread(&solution.w, &solution.at)?,
+            );
             let sd = spread.column(spread.ncols() - 1).norm() / value;
             Some(Normal { mean: value.ln(), sd }).filter(|one| one.mean.is_finite() && one.sd.is_finite())
         } else {

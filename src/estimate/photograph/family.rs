@@ -17,7 +17,7 @@ use crate::estimate::prior::Prior;
 use crate::estimate::search::Search;
 use crate::estimate::unknowns::EXPOSURE;
 use crate::solve::dense::rms;
-use crate::solve::posterior::{Linearised, Model};
+use crate::solve::posterior::{Evaluated, Linearised, Model};
 
 /// A mode counts as found within this many standard deviations.
 const TOLERANCE: f64 = 0.03;
@@ -176,7 +176,7 @@ impl SpectrumModel for JointModel<'_> {
     }
 
     /// 45:0 reflectance, then albedo, then emission as a fraction of white.
-    fn values(&self, w: &DVector<f64>) -> Vec<f64> {
+    fn values(&self, w: &DVector<f64>, _: &Evaluated<Self::Ingredients>) -> Vec<f64> {
         let first = self.first();
         let own = first.own(w);
         let Point { albedo, departure, .. } = first.model.point(&own);
