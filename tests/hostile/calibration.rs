@@ -89,8 +89,8 @@ fn charts_and_white_cards() {
         sh marked --chart "200,200 260,200 260,260 200,260" "$@"
 END
         cat > shade <<'END'
-        vextract shade.exr --scene scene.json --camera canon-5d-mark-ii --panel0 "332,462 345,77 122,12 104,442" \
-            --white-region "550,210 610,210 610,270 550,270" "$@"
+        vextract shade.exr --scene scene.json --camera canon-5d-mark-ii \
+            --panel0 "332,462 345,77 122,12 104,442" --white-region "550,210 610,210 610,270 550,270" "$@"
 END
         cat > card <<'END'
         sh marked --white-region "200,200 260,200 260,260 200,260" "$@"

@@ -93,7 +93,8 @@ fn streams() {
                 &["'response'", "not that of this geometry; make the scene again with vkernel"],
             ),
             case(
-                "sed 's/\"panel\":.1.0,1.0./\"panel\":[1.0,2.0]/; 2d' good.ndjson | vforward --reflectance 0.5",
+                "sed 's/\"panel\":.1.0,1.0./\"panel\":[1.0,2.0]/; 2d' good.ndjson | \
+                    vforward --reflectance 0.5",
                 1,
                 &["'response'", "not that of this geometry"],
             ),

@@ -169,8 +169,8 @@ fn colours_multiplied_by_alpha_are_divided_again() {
         (run.status, run.stderr.as_str()),
         (
             1,
-            "vextract: id.exr: its alpha is 255 somewhere, not between 0 and 1; save it without alpha, as R, G \
-             and B\n"
+            "vextract: id.exr: its alpha is 255 somewhere, not between 0 and 1; save it without alpha, as R, \
+             G and B\n"
         )
     );
 }

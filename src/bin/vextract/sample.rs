@@ -66,7 +66,7 @@ impl Setup<'_> {
         let mut facets = panels.in_scene(measured, self.facet_count);
         let mut grids = placed.grids.clone();
         grids.extend(self.calibration.grid(&regions, placed.lens())?);
-        regions.white.map_or(Ok(()), |corners| white::beside_panels(path, corners, &regions.panels))?;
+        regions.white.map_or(Ok(()), |corners| white::check_off_panels(path, corners, &regions.panels))?;
         let balance = balance::of_scene(self.scene, &photograph);
         args.pictures.overlay(path, &photograph, &grids, &facets, &balance)?;
         if facets.iter().all(|facet| facet.mean.is_none()) {

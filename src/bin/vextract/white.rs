@@ -1,4 +1,4 @@
-//! Checks of what is marked as white: a card or paper beside the sheet, not the sheet itself or its surroundings.
+//! Checks of what is marked as white: a card or paper next to the sheet, not the sheet itself or a shadow.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,7 +19,7 @@ const BRIGHTEST: f64 = 2.0;
 
 /// # Errors
 /// [`Error::Picture`] if what is marked as white is on a panel.
-pub fn beside_panels(path: &Path, white: Corners, panels: &BTreeMap<usize, Corners>) -> Result<()> {
+pub fn check_off_panels(path: &Path, white: Corners, panels: &BTreeMap<usize, Corners>) -> Result<()> {
     let card = Homography::from_unit_square(white)?;
     let middle = |n: usize| (n as f64 + 0.5) / POINTS as f64;
     let points: Vec<_> =
