@@ -21,8 +21,8 @@ impl MaterialArgs {
     /// The materials on the wavelengths of `grid`.
     ///
     /// # Errors
-    /// As [`Common::one_reflectance`]; [`Error::Usage`] if a group has two, or [`Error::Spectrum`] if one
-    /// does not cover the wavelengths.
+    /// As [`Common::one_reflectance`]; [`Error::Usage`] if a group has two, or one does not cover the
+    /// wavelengths.
     pub fn on(&self, grid: &WavelengthGrid, common: &Common) -> Result<Vec<Material>> {
         let mut materials: Vec<Material> = Vec::new();
         for (group, spec) in &self.material {
@@ -30,7 +30,7 @@ impl MaterialArgs {
                 return Err(Error::usage("--material", format!("'{group}' is stated twice"), "keep one"));
             }
             let spectrum = common.one_reflectance("--material", spec)?;
-            let reflectance = spectrum.on(grid, Outside::Refuse)?;
+            let reflectance = spectrum.on(grid, Outside::Refuse).map_err(|e| e.of_flag("--material"))?;
             materials.push(Material { group: group.clone(), name: spectrum.name().to_owned(), reflectance });
         }
         Ok(materials)

@@ -11,6 +11,7 @@ pub mod bent;
 pub mod continuum;
 pub mod environment;
 pub mod mesh;
+pub mod panels;
 pub mod quadrature;
 pub mod refinement;
 pub mod skipped;

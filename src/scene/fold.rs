@@ -12,6 +12,7 @@ use crate::estimate::photograph::priors::Priors;
 use crate::forward::{Card, FacetModel, Lighting};
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::mesh::{Mesh, respond};
+use crate::kernel::panels::is_of_fold;
 use crate::response::Response;
 use crate::stream::{Optics, Scene};
 
@@ -51,6 +52,19 @@ pub(super) fn backing(scene: &Scene) -> Result<Backing> {
     Ok(if scene.is_backed()? { Backing::Black } else { Backing::Unknown })
 }
 
+/// The response in a scene's record.
+///
+/// # Errors
+/// As [`Scene::response_of`]; [`Error::Field`] if it is exact, but of another fold.
+fn response_of(scene: &Scene, fold: &Fold) -> Result<Response> {
+    let response = scene.response_of(fold)?;
+    if scene.has_exact_form_factors()? && !is_of_fold(&response, fold) {
+        let problem = "not that of this geometry; make the scene again with vkernel";
+        return Err(Error::field("response", problem));
+    }
+    Ok(response)
+}
+
 impl FoldSetting {
     /// From a scene's record; a fold among light sources is simplified to what photographs of it assume.
     ///
@@ -68,7 +82,7 @@ impl FoldSetting {
             let (response, _) = respond(&fold, PICTURE_TOLERANCE)?;
             (StatedLight::of(&scene.sources()?, &fold)?, response)
         } else {
-            (scene.light_on(&fold)?.into(), scene.response_of(&fold)?)
+            (scene.light_on(&fold)?.into(), response_of(scene, &fold)?)
         };
         Ok(Self {
             angle_sd_deg: scene.angle_sd_deg()?,

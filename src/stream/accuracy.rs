@@ -8,6 +8,9 @@ use super::fields::BY_VKERNEL;
 use crate::error::{Error, Result};
 use crate::kernel::mesh::{Accuracy, KernelSource};
 
+/// The method of form factors without sampling.
+const EXACT: &str = "exact";
+
 /// How accurately the bounces were solved.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct AccuracyRecord {
@@ -101,6 +104,17 @@ impl Scene {
     /// [`Error::Field`] if it is not there.
     pub fn mesh(&self) -> Result<String> {
         Ok(self.accuracy()?.mesh)
+    }
+
+    /// Whether form factors are exact to the tolerance: the scene says so, and none was sampled.
+    ///
+    /// # Errors
+    /// [`Error::Field`] if the record of the accuracy is not one.
+    pub fn has_exact_form_factors(&self) -> Result<bool> {
+        if !self.has_accuracy() {
+            return Ok(false);
+        }
+        Ok(self.accuracy()?.kernel.is_none_or(|kernel| kernel.method == EXACT))
     }
 
     /// Number of unknowns with which the bounces were solved.

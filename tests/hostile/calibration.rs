@@ -83,9 +83,14 @@ fn charts_and_white_cards() {
         oiiotool photo.exr --ch R -d uint16 -o grey.tif
         oiiotool photo.exr --mulc 0 -o black.exr
         oiiotool photo.exr --resize 64x48 -o small.exr
+        oiiotool photo.exr --fill:color=.004,.005,.004 80x80+540+200 -o shade.exr
         echo 'this is no picture' > text.png
         cat > chart <<'END'
         sh marked --chart "200,200 260,200 260,260 200,260" "$@"
+END
+        cat > shade <<'END'
+        vextract shade.exr --scene scene.json --camera canon-5d-mark-ii \
+            --panel0 "332,462 345,77 122,12 104,442" --white-region "550,210 610,210 610,270 550,270" "$@"
 END
         cat > card <<'END'
         sh marked --white-region "200,200 260,200 260,260 200,260" "$@"
@@ -121,6 +126,15 @@ END
             case("sh chart --chart-reference dark.csv --chart-grid 1x2", 1, &["dark:a", "black"]),
             case("sh card --white-reflectance cc24", 2, &["--white-reflectance", "a set"]),
             case("sh card --white-reflectance 1.2", 2, &["--white-reflectance: ", "1.2", "0..1"]),
+            case("sh card", 1, &["photo.exr: the white region overlaps panel 0", "beside the sheet"]),
+            case("sh card --white-reflectance 0.9", 1, &["photo.exr: the white region overlaps panel 0"]),
+            // a shadow is no white paper, and no card
+            case(
+                "sh shade",
+                1,
+                &["shade.exr: the white region is too dark", "times as bright", "--white-cos"],
+            ),
+            case("sh shade --white-reflectance 0.9", 1, &["shade.exr: the white region is too dark"]),
             case(
                 "sh marked --white-region '1,1 9,1 9,9 1,9'",
                 1,

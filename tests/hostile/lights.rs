@@ -60,8 +60,19 @@ fn folds() {
 #[test]
 fn scenes() {
     assert_refused(
-        "vkernel --folds 2 --facets 1x1 --mesh facets --light 0,0,1 --light 1,0,1 --no-history -o two.json",
+        "vkernel --folds 2 --facets 1x1 --mesh facets --light 0,0,1 --light 1,0,1 --no-history -o two.json
+        printf 'nm,r\n500,0.5\n600,0.5\n' > narrow.csv",
         &[
+            case(
+                "vforward two.json --reflectance 0.5 --material attic=narrow.csv",
+                2,
+                &["--material: spectrum 'narrow'", "500..600 nm"],
+            ),
+            case(
+                "vforward two.json --reflectance 0.5 | vestimate --material attic=narrow.csv",
+                2,
+                &["vestimate: --material: spectrum 'narrow'", "500..600 nm"],
+            ),
             case(
                 "vforward two.json --reflectance 0.5 --illuminant A --illuminant D65 --illuminant FL2",
                 1,

@@ -86,6 +86,18 @@ fn streams() {
                 1,
                 &["geometry.angle_sd_deg", "above 0"],
             ),
+            // edited after vkernel
+            case(
+                "sed 's/\"angle_deg\":50.0/\"angle_deg\":52.0/' good.ndjson | vestimate",
+                1,
+                &["'response'", "not that of this geometry; make the scene again with vkernel"],
+            ),
+            case(
+                "sed 's/\"panel\":.1.0,1.0./\"panel\":[1.0,2.0]/; 2d' good.ndjson | \
+                    vforward --reflectance 0.5",
+                1,
+                &["'response'", "not that of this geometry"],
+            ),
             case(
                 "sed 's/\"angle_deg\":50/\"angle_deg\":0/' good.ndjson | vestimate",
                 1,

@@ -92,6 +92,128 @@ fn layouts_of_tiff_are_read_or_refused_by_name() {
     }
 }
 
+/// A TIFF of 16 bits whose halves have these samples, with more tags of one or more numbers of 16 bits.
+fn tiff(halves: [&[u16]; 2], tags: &[(u16, &[u16])]) -> Vec<u8> {
+    const SIZE: [u16; 2] = [80, 60];
+    let samples = halves[0].len() as u16;
+    let row = halves.map(|half| half.repeat(40)).concat();
+    let pixels: Vec<u8> = row.repeat(60).iter().flat_map(|sample| sample.to_le_bytes()).collect();
+    let bits = vec![16; halves[0].len()];
+    let strip = [pixels.len() as u16, (pixels.len() >> 16) as u16];
+    let mut entries: Vec<(u16, &[u16])> = vec![
+        (256, &SIZE[..1]),
+        (257, &SIZE[1..]),
+        (258, &bits),
+        (259, &[1]),
+        (262, &[2]),
+        (273, &[8]),
+        (277, std::slice::from_ref(&samples)),
+        (278, &SIZE[1..]),
+        (279, &strip),
+    ];
+    entries.extend(tags);
+    entries.sort_by_key(|(tag, _)| *tag);
+    let at = 8 + pixels.len() as u32;
+    let mut behind_at = at + 6 + 12 * entries.len() as u32;
+    let (mut directory, mut behind) = ((entries.len() as u16).to_le_bytes().to_vec(), Vec::new());
+    for (tag, numbers) in entries {
+        // the length of the strip is one of 32 bits
+        let (kind, count) = if tag == 279 { (4_u16, 1) } else { (3, numbers.len() as u32) };
+        let mut value: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        if value.len() > 4 {
+            behind.extend(&value);
+            value = behind_at.to_le_bytes().to_vec();
+            behind_at += 2 * count;
+        }
+        value.resize(4, 0);
+        directory
+            .extend([&tag.to_le_bytes()[..], &kind.to_le_bytes(), &count.to_le_bytes(), &value].concat());
+    }
+    directory.extend([0; 4]);
+    [&b"II*\0"[..], &at.to_le_bytes(), &pixels, &directory, &behind].concat()
+}
+
+/// The stored numbers of the two halves, multiplied.
+fn stored(factor: f64, more: &[u16]) -> [Vec<u16>; 2] {
+    COLOURS.map(|colour| {
+        let colour = colour.map(|value| (65535.0 * factor * value).round() as u16);
+        [&colour[..], more].concat()
+    })
+}
+
+#[test]
+fn colours_multiplied_by_alpha_are_divided_again() {
+    let folder = Workdir::new();
+    for (name, how) in [
+        ("OpenEXR", "-d half -o a.exr; of_canon a.exr"),
+        ("PNG, which does not multiply", "-d uint16 -o a.png; of_canon a.png"),
+        ("TIFF", "-d uint16 -o a.tif; of_canon a.tif"),
+        ("TIFF of floats in planes", "--planarconfig separate -d float -o b.tif; of_canon b.tif"),
+    ] {
+        let line = format!("halves --ch R,G,B,A=.5 --mulc .5,.5,.5,1 {how}");
+        assert_halves(&sh(&folder, &line), 1e-3, name);
+    }
+    const ALPHA: u16 = 0x4000;
+    let quarter = f64::from(ALPHA) / 65535.0;
+    for (extra, factor) in [(1, quarter), (2, 1.0)] {
+        let [left, right] = stored(factor, &[ALPHA]);
+        std::fs::write(folder.path().join("c.tif"), tiff([&left, &right], &[(338, &[extra])])).unwrap();
+        assert_halves(&sh(&folder, "of_canon c.tif"), 1e-3, &format!("ExtraSamples {extra}"));
+    }
+    let [left, right] = stored(1.0, &[ALPHA]);
+    std::fs::write(folder.path().join("d.tif"), tiff([&left, &right], &[(338, &[1])])).unwrap();
+    let run = sh(&folder, "of_canon d.tif");
+    assert!(run.status == 1 && run.stderr.contains("d.tif: a colour is above alpha"), "{run:?}");
+    let run = sh(&folder, "halves --ch R,G,B,A=255 -d half -o id.exr; of_canon id.exr");
+    assert_eq!(
+        (run.status, run.stderr.as_str()),
+        (
+            1,
+            "vextract: id.exr: its alpha is 255 somewhere, not between 0 and 1; save it without alpha, as R, \
+             G and B\n"
+        )
+    );
+}
+
+#[test]
+fn black_and_white_that_a_tiff_states_are_confirmed_by_the_user() {
+    let folder = Workdir::new();
+    let extract = |tags: &[(u16, &[u16])], flags: &str| {
+        let [left, right] = stored(0.5, &[]);
+        std::fs::write(folder.path().join("a.tif"), tiff([&left, &right], tags)).unwrap();
+        sh(&folder, &format!("of_canon a.tif {flags}"))
+    };
+    let half = [0, 32768].repeat(3);
+    for (tags, says) in [
+        (&[(532, &half[..])][..], "by its ReferenceBlackWhite, white is 32768 instead of 65535"),
+        (&[(50717, &[32768])], "by its WhiteLevel, white is 32768 instead of 65535"),
+        (
+            &[(50714, &[0, 512, 512]), (50717, &[65535])],
+            "by its BlackLevel and WhiteLevel, black is 0, 512 instead of 0",
+        ),
+    ] {
+        let run = extract(tags, "");
+        assert!(run.status == 1 && run.stderr.contains(&format!("a.tif: {says}; ")), "{run:?}");
+    }
+    assert_halves(&extract(&[(532, &half)], "--white-level 32768"), 1e-3, "as it says");
+    let whole = [0, 65535].repeat(3);
+    assert_eq!(extract(&[(532, &whole), (50714, &[0])], "").status, 0, "as assumed");
+}
+
+/// Channels of OpenEXR that are not red, green and blue.
+#[test]
+fn other_channels_are_named() {
+    let folder = Workdir::new();
+    for (channels, what) in [
+        ("X,Y,Z", "a picture of CIE XYZ (channels X, Y and Z)"),
+        ("Y,RY,BY", "a picture of luminance and chroma"),
+        ("Y,id,mask", "a picture of luminance (Y)"),
+    ] {
+        let run = sh(&folder, &format!("halves --chnames {channels} -d half -o a.exr; of_canon a.exr"));
+        assert!(run.status == 1 && run.stderr.contains(what), "{run:?}");
+    }
+}
+
 /// A pipe can be read once.
 #[test]
 fn pipes_are_read_as_the_files_they_carry() {

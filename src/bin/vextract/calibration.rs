@@ -14,7 +14,7 @@ use vfold::stream::{CalibrationRecord, Corners, Regions, Scene, WhitePaperRecord
 use vfold::{Error, Result, cli};
 
 use super::target::{Target, View};
-use super::{facing, paper};
+use super::{facing, paper, white};
 
 /// The usual chart, and its rows and columns.
 const CHART: &str = "cc24";
@@ -180,6 +180,28 @@ impl ResolvedCalibration {
         };
         let light = light(scene)?;
         paper::exposure(target, &View { path, photograph, light: &light, lens }, corners).map(Some)
+    }
+
+    /// Checks that what is marked as white can be, beside the measured `facets`.
+    ///
+    /// # Errors
+    /// As [`white::is_white`] and [`Target::measure`].
+    pub fn check_white(
+        &self,
+        scene: &Scene,
+        regions: &Regions,
+        lens: Lens,
+        (path, photograph): (&Path, &Photograph),
+        facets: &[FacetMeasurement],
+    ) -> Result<()> {
+        let (Some((target, corners)), Some(_)) = (self.marked(regions)?, regions.white) else {
+            return Ok(());
+        };
+        let (setting, light) = (Setting::of(scene)?, light(scene)?);
+        let model = setting.model()?;
+        let perfect = model.facet_rgb(&vec![1.0; model.bands()]);
+        let patch = target.measure(&View { path, photograph, light: &light, lens }, corners)?.swap_remove(0);
+        white::is_white(path, &patch, &perfect, facets)
     }
 
     /// What the picture of a white sheet shows of the exposure, if nothing in the photograph does and both

@@ -18,6 +18,7 @@ mod reading;
 mod regions;
 mod sample;
 mod target;
+mod white;
 
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -20,7 +20,7 @@ use super::calibration::{ResolvedCalibration, apply};
 use super::pictures::name;
 use super::reading::{Opened, Reading};
 use super::regions::ResolvedRegions;
-use super::{Args, balance, camera, finding, numbers, placing};
+use super::{Args, balance, camera, finding, numbers, placing, white};
 
 /// Common settings of all photographs in a run.
 pub struct Setup<'a> {
@@ -66,6 +66,7 @@ impl Setup<'_> {
         let mut facets = panels.in_scene(measured, self.facet_count);
         let mut grids = placed.grids.clone();
         grids.extend(self.calibration.grid(&regions, placed.lens())?);
+        regions.white.map_or(Ok(()), |corners| white::check_off_panels(path, corners, &regions.panels))?;
         let balance = balance::of_scene(self.scene, &photograph);
         args.pictures.overlay(path, &photograph, &grids, &facets, &balance)?;
         if facets.iter().all(|facet| facet.mean.is_none()) {
@@ -82,6 +83,7 @@ impl Setup<'_> {
             None => self.calibration.paper(self.scene, &regions, placed.lens(), path, &photograph)?,
         };
         let calibrated = self.calibrated(&regions, placed.lens(), path, &photograph)?;
+        self.calibration.check_white(self.scene, &regions, placed.lens(), (path, &photograph), &facets)?;
         let mut sample = Sample::new(&self.id, &name(path))?;
         if let Some(exposure) = self.calibration.exposure {
             sample.fields.set("exposure", exposure)?;

@@ -8,6 +8,7 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, L
 
 use super::exif::{self, Tags};
 use super::jpeg::Jpeg;
+use super::levels::Levels;
 use super::openexr::{self, Kind};
 use super::picture_file::PictureFile;
 use super::refused::{
@@ -15,7 +16,7 @@ use super::refused::{
 };
 use super::stated::Statement;
 use super::tiff::Tiff;
-use super::{icc, openexr_pixels, png_chunks};
+use super::{alpha, icc, openexr_pixels, png_chunks};
 use crate::image::photograph::CameraNotes;
 use crate::{Error, Result, room};
 
@@ -33,6 +34,8 @@ pub(super) struct Picture {
     pub camera: CameraNotes,
     /// The file's statements on its numbers.
     pub stated: Vec<Statement>,
+    /// The numbers that it states for black and white.
+    pub levels: Option<Levels>,
 }
 
 /// Reads and decodes a picture file; its content, not its name, determines the format.
@@ -65,7 +68,7 @@ pub(super) fn decode(file: &mut PictureFile) -> Result<Decoded> {
     let (pixels, block, mut stated) = foreseen(path, || decode_whole(path, file, length, format))?;
     let Tags { camera, stated: by_exif } = exif::read(block, 0);
     stated.extend(by_exif);
-    Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera, stated })))
+    Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera, stated, levels: None })))
 }
 
 fn decode_tiff(file: &mut PictureFile, path: &Path, length: u64) -> Result<Decoded> {
@@ -81,8 +84,9 @@ fn decode_tiff(file: &mut PictureFile, path: &Path, length: u64) -> Result<Decod
     camera.notes.extend(tiff.note());
     let mut stated = tiff.statements();
     stated.extend(by_exif);
+    let levels = tiff.levels();
     let pixels = foreseen(path, || tiff.pixels(path, file))?;
-    Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera, stated })))
+    Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera, stated, levels })))
 }
 
 /// The name of a format.
@@ -170,15 +174,23 @@ fn decode_whole(
     let has_alpha = decoder.color_type().has_alpha();
     drop(decoder);
     file.rewind().map_err(|source| Error::file(path.display(), source))?;
-    if format == ImageFormat::OpenExr
-        && let Some(picture) = openexr_pixels::decode(&mut *file, dimensions, has_alpha)
-    {
-        return Ok((picture, block, stated));
+    let in_place = if format == ImageFormat::OpenExr {
+        openexr_pixels::decode(&mut *file, dimensions, has_alpha)
+    } else {
+        None
+    };
+    let mut picture = match in_place {
+        Some(picture) => picture,
+        None => {
+            // once decoded, once copied
+            room::ask(2 * bytes, &path.display().to_string(), TOO_LARGE)?;
+            let picture = image_decoder(file, format).and_then(DynamicImage::from_decoder);
+            picture.map_err(|error| undecodable(path, error))?
+        }
+    };
+    if format == ImageFormat::OpenExr {
+        alpha::divide(path, &mut picture)?;
     }
-    // once decoded, once copied
-    room::ask(2 * bytes, &path.display().to_string(), TOO_LARGE)?;
-    let picture = image_decoder(file, format).and_then(DynamicImage::from_decoder);
-    let picture = picture.map_err(|error| undecodable(path, error))?;
     Ok((picture, block, stated))
 }
 

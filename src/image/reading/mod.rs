@@ -1,10 +1,12 @@
 //! From a picture file to a photograph: formats, EXIF, the RAW files of cameras.
 
+mod alpha;
 mod decode;
 mod exif;
 mod exif_taken;
 mod icc;
 mod jpeg;
+mod levels;
 mod open;
 mod openexr;
 mod openexr_pixels;

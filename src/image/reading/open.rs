@@ -18,7 +18,8 @@ impl Photograph {
     /// The content, not the name, determines the format; a picture named like a RAW file is refused. Where
     /// [`Transfer::Auto`] is requested, the file's statements on its numbers (ICC profile, EXIF colour space,
     /// PNG's chunks, OpenEXR's chromaticities) determine the curve. Alpha is dropped, except that fully
-    /// transparent pixels count as missing. The picture is turned upright by its EXIF orientation. At most 2
+    /// transparent pixels count as missing, and that colours stored multiplied by it are divided again. The
+    /// picture is turned upright by its EXIF orientation. At most 2
     /// GiB when decoded and 65536 px per side.
     ///
     /// # Errors
@@ -61,17 +62,23 @@ impl Photograph {
             Decoded::Picture(picture) => {
                 let is_present = options.transfer != Transfer::Auto;
                 let options = &ReadOptions { transfer: transfer(path, &picture, options)?, ..*options };
-                Self::from_picture(*picture, options, is_present)
+                Self::from_picture(path, *picture, options, is_present)
             }
         };
         Ok(photograph?.with_limits_detected().of_file(stamp))
     }
 
-    fn from_picture(picture: Picture, options: &ReadOptions, transfer_stated: bool) -> Result<Self> {
-        let Picture { format, pixels, camera, .. } = picture;
+    fn from_picture(
+        path: &Path,
+        picture: Picture,
+        options: &ReadOptions,
+        transfer_stated: bool,
+    ) -> Result<Self> {
+        let Picture { format, pixels, camera, levels, .. } = picture;
         let color = pixels.color();
         let bits = u32::from(color.bits_per_pixel()) / u32::from(color.channel_count());
         let scale = Scale::new(options, bits)?;
+        levels.map_or(Ok(()), |levels| levels.check(path, &scale, options))?;
         let stored_size = (pixels.width() as usize, pixels.height() as usize);
         let orientation = camera.orientation;
         let info = PhotographInfo {

@@ -103,6 +103,15 @@ fn other(headers: &[Header]) -> (String, &'static str) {
         let is = format!("a picture in layers, such as '{layered}', without R, G and B of its own");
         return (is, "save the intended layer alone, as R, G and B");
     }
+    let has_any = |wanted: [&str; 3]| headers.iter().any(|header| has(header, wanted));
+    if has_any(["X", "Y", "Z"]) {
+        let is = "a picture of CIE XYZ (channels X, Y and Z), not of a camera's colours";
+        return (is.to_owned(), "give the camera's own picture, as R, G and B");
+    }
+    if has_any(["Y", "RY", "BY"]) {
+        let is = "a picture of luminance and chroma (channels Y, RY and BY), whose chroma has less detail";
+        return (is.to_owned(), "give the original, as R, G and B");
+    }
     if headers.iter().any(|header| has(header, ["Y"])) {
         return ("a picture of luminance (Y), not of colours".to_owned(), "save it as R, G and B");
     }

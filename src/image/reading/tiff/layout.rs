@@ -61,6 +61,8 @@ pub(super) struct Layout {
     colours: usize,
     /// The sample that is alpha.
     alpha: Option<usize>,
+    /// Whether colours are stored multiplied by alpha.
+    pub is_multiplied: bool,
     /// Whether 0 is white.
     pub is_inverted: bool,
     /// Whether each sample has its own plane.
@@ -113,7 +115,7 @@ impl Layout {
         let (colours, is_inverted) = colours(path, page)?;
         let kind = kind(path, page)?;
         let samples = page.number(SAMPLES_PER_PIXEL).unwrap_or(1) as usize;
-        let alpha = alpha(path, page, samples, colours)?;
+        let (alpha, is_multiplied) = alpha(path, page, samples, colours)?;
         let compression = compression(path, page)?;
         let is_planar = match page.number(PLANAR_CONFIGURATION).unwrap_or(1) {
             1 => false,
@@ -128,6 +130,7 @@ impl Layout {
             samples,
             colours,
             alpha,
+            is_multiplied,
             is_inverted,
             is_planar,
             cut: cut(path, page, height)?,
@@ -322,8 +325,9 @@ fn kind(path: &Path, page: &Directory) -> Result<Kind> {
     }
 }
 
-/// The alpha sample: as `ExtraSamples` states, or by default the only sample other than the colours.
-fn alpha(path: &Path, page: &Directory, samples: usize, colours: usize) -> Result<Option<usize>> {
+/// The alpha sample, as `ExtraSamples` states, or by default the only sample other than the colours; and
+/// whether colours are stored multiplied by it.
+fn alpha(path: &Path, page: &Directory, samples: usize, colours: usize) -> Result<(Option<usize>, bool)> {
     const ASSOCIATED: u64 = 1;
     const UNASSOCIATED: u64 = 2;
     if !(colours..=u16::MAX.into()).contains(&samples) {
@@ -342,7 +346,9 @@ fn alpha(path: &Path, page: &Directory, samples: usize, colours: usize) -> Resul
             format!("it is grey, but has {samples} samples per pixel, and does not state which are colours");
         return Err(Error::picture(path, problem, "save it as RGB"));
     }
-    Ok(alpha.map(|alpha| colours + alpha).filter(|alpha| *alpha < samples))
+    // where there are several, some writers call the first alpha, whatever it is
+    let is_multiplied = extra.is_some_and(|extra| extra == [ASSOCIATED]) && samples == colours + 1;
+    Ok((alpha.map(|alpha| colours + alpha).filter(|alpha| *alpha < samples), is_multiplied))
 }
 
 fn compression(path: &Path, page: &Directory) -> Result<u64> {

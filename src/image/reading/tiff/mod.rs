@@ -8,6 +8,7 @@
 mod described;
 mod directory;
 mod layout;
+mod levels;
 mod pages;
 mod pixels;
 mod statements;
@@ -22,6 +23,8 @@ use image::DynamicImage;
 use self::layout::Layout;
 use self::pages::Pages;
 use self::pixels::Pixels;
+use super::alpha;
+use super::levels::Levels;
 use super::refused::{TOO_LARGE, check_size, undecodable};
 use super::stated::Statement;
 use crate::{Result, room};
@@ -59,6 +62,11 @@ impl Tiff {
         statements::statements(self.pages.directory())
     }
 
+    /// The numbers that the selected page states for black and white.
+    pub fn levels(&self) -> Option<Levels> {
+        levels::levels(self.pages.directory())
+    }
+
     /// The pixels of the selected page.
     ///
     /// # Errors
@@ -69,7 +77,11 @@ impl Tiff {
         let bytes = layout.bytes();
         check_size(path, (layout.width, layout.height), layout.stored_bytes(), self.length)?;
         room::ask(bytes + layout.other_bytes(), &path.display().to_string(), TOO_LARGE)?;
-        DynamicImage::from_decoder(Pixels { file, layout: &layout, length: self.length })
-            .map_err(|error| undecodable(path, error))
+        let mut picture = DynamicImage::from_decoder(Pixels { file, layout: &layout, length: self.length })
+            .map_err(|error| undecodable(path, error))?;
+        if layout.is_multiplied {
+            alpha::divide(path, &mut picture)?;
+        }
+        Ok(picture)
     }
 }

@@ -1,6 +1,6 @@
 //! Tags of TIFF directories, types of their values, and limits.
 //!
-//! DNG's tags are defined where they are read.
+//! Those that DNG alone has are defined where they are read.
 
 pub const NEW_SUBFILE_TYPE: u16 = 254;
 pub const WIDTH: u16 = 256;
@@ -26,8 +26,11 @@ pub const SUB_DIRECTORIES: u16 = 330;
 pub const EXTRA_SAMPLES: u16 = 338;
 pub const SAMPLE_FORMAT: u16 = 339;
 pub const JPEG_TABLES: u16 = 347;
+pub const REFERENCE_BLACK_WHITE: u16 = 532;
 pub const PROFILE: u16 = 34675;
 pub const DNG_VERSION: u16 = 50706;
+pub const BLACK_LEVEL: u16 = 50714;
+pub const WHITE_LEVEL: u16 = 50717;
 
 /// Types of values.
 pub const BYTE: u16 = 1;
