@@ -44,8 +44,9 @@ pub struct Estimate {
     pub without_bounces: f64,
     /// Number of iterations.
     pub iterations: u32,
-    /// Iterations by run: under all spectra, in each light that was tried; under the most probable class until
-    /// classes are distinguished; then under each class that was tried. Empty for a method without a trace.
+    /// Iterations by run: under all spectra, in each light that was tried; under the most probable class
+    /// until classes are distinguished; then under each class that was tried. Empty for a method without a
+    /// trace.
     pub trace: Vec<Vec<Iteration>>,
     /// Why the solver stopped.
     pub termination: Termination,

@@ -12,8 +12,8 @@ pub trait SpectrumModel: Model {
     fn gaussian(&self) -> &Gaussian;
     /// Derivatives by logit at a point: residual by waveband.
     fn by_logit(&self, at: &Linearised<Self::Second>) -> DMatrix<f64>;
-    /// The reported values at `w`, where it was evaluated: reflectance per waveband, then everything else that
-    /// is estimated.
+    /// The reported values at `w`, where it was evaluated: reflectance per waveband, then everything else
+    /// that is estimated.
     fn values(&self, w: &DVector<f64>, at: &Evaluated<Self::Ingredients>) -> Vec<f64>;
     /// Square root of the covariance of the values at a mode: its transpose times itself is the covariance.
     /// `None` if the model is not finite.
