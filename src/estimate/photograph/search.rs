@@ -36,7 +36,7 @@ pub struct Weighed<'a> {
     pub possible: Possible,
 }
 
-/// Modes of a sheet of the [family](SheetModel::Family).
+/// Modes of a sheet of the [family](super::sheet_models::SheetModel::Family).
 pub struct Modes<'a> {
     /// The photographs, with errors relative to predicted values.
     pub photographs: Photographs<'a>,
