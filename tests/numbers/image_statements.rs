@@ -203,7 +203,7 @@ fn openexr_says_whose_colours_it_holds() {
         (chromaticities("0.7347,0.2653,0,1,0.0001,-0.077,0.32168,0.33767").as_str(), "chromaticities"),
         ("--chnames diffuse.R,diffuse.G,diffuse.B", "in layers, such as 'diffuse."),
         ("--ch 0 --chnames Y", "luminance (Y)"),
-        ("--chnames X,Y,Z", "luminance (Y)"),
+        ("--chnames X,Y,Z", "CIE XYZ (channels X, Y and Z)"),
         ("--chnames u,v,w", "a picture of u, v, w"),
         ("--crop 8x5+3+2", "leaves part of its display window empty"),
     ] {
