@@ -96,7 +96,7 @@ fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Ve
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn candidate_lights() -> Result<Vec<CandidateLight>> {
-    spaced(STEP_MIRED / FINE_STEP_MIRED, |is_between| !is_between)
+    spaced(STEP_MIRED / FINE_STEP_MIRED, false)
 }
 
 /// The same lights, and those [between](CandidateLight::is_between) them.
@@ -104,7 +104,7 @@ pub fn candidate_lights() -> Result<Vec<CandidateLight>> {
 /// # Errors
 /// As [`candidate_lights`].
 pub fn candidate_lights_and_between() -> Result<Vec<CandidateLight>> {
-    spaced(STEP_MIRED / FINE_STEP_MIRED, |_| true)
+    spaced(STEP_MIRED / FINE_STEP_MIRED, true)
 }
 
 /// The same lights, all of them as close as those between others.
@@ -112,11 +112,11 @@ pub fn candidate_lights_and_between() -> Result<Vec<CandidateLight>> {
 /// # Errors
 /// As [`candidate_lights`].
 pub fn fine_candidate_lights() -> Result<Vec<CandidateLight>> {
-    spaced(1, |_| true)
+    spaced(1, true)
 }
 
-/// Lights, of which one in `steps` of a series of temperatures is not between others, if they are `wanted`.
-fn spaced(steps: usize, wanted: fn(bool) -> bool) -> Result<Vec<CandidateLight>> {
+/// One light in `steps` of each series of temperatures, and those between them if `with_between`.
+fn spaced(steps: usize, with_between: bool) -> Result<Vec<CandidateLight>> {
     let of_kind = |kind: &Kind| {
         let lights = (kind.lights)();
         let is_between = |(n, (_, cct_k)): (usize, &(String, Option<f64>))| cct_k.is_some() && n % steps > 0;
@@ -127,7 +127,7 @@ fn spaced(steps: usize, wanted: fn(bool) -> bool) -> Result<Vec<CandidateLight>>
             let share = if is_between { share / steps as f64 } else { share };
             Ok(CandidateLight { spectrum: illuminant(&name)?, share, cct_k, is_any_daylight, is_between })
         };
-        lights.into_iter().zip(between).filter(move |(_, is_between)| wanted(*is_between)).map(light)
+        lights.into_iter().zip(between).filter(move |(_, is_between)| with_between || !is_between).map(light)
     };
     SOURCES.iter().flat_map(of_kind).collect()
 }

@@ -124,9 +124,9 @@ impl<'a> Weighed<'a> {
         };
         let of_family = sorted.iter().filter(|one| is_of_family(&one.hypothesis));
         let of_days = of_family.map(|one| (one.hypothesis.day, one.solution.w.clone())).collect();
+        let day = day(&sorted, &photographs.0);
         let least = sorted.first()?.ln_weight() + LN_EVIDENCE_NEAR;
         sorted.retain(|one| one.ln_weight() >= least);
-        let day = day(&sorted, &photographs.0);
         let modes = Modes { photographs, day, of_days, ln_by_emission };
         Some(Self { modes, possible: Possible { sorted, trace } })
     }
@@ -236,11 +236,13 @@ fn fluorescence(photograph: &Photograph, found: &Mixture<Hypothesis, ()>) -> Opt
 }
 
 /// The most probable kind of day among hypotheses sorted by evidence; `None` if the light is not daylight.
+/// Sheets without a fold are assumed to be in the sun, and reveal nothing about the day.
 fn day(sorted: &[Tried], photographs: &[Photograph]) -> Option<DayEstimate> {
     photographs.iter().all(|one| one.parts.stated.daylight.is_some()).then_some(())?;
-    let ln_most = sorted.first()?.ln_weight();
+    let folds = || sorted.iter().filter(|one| one.hypothesis.has_bounces());
+    let ln_most = folds().next()?.ln_weight();
     let mut probabilities = [0.0; Day::ALL.len()];
-    for one in sorted {
+    for one in folds() {
         probabilities[one.hypothesis.day as usize] += (one.ln_weight() - ln_most).exp();
     }
     let sum: f64 = probabilities.iter().sum();

@@ -19,8 +19,7 @@ impl Photograph {
     /// [`Transfer::Auto`] is requested, the file's statements on its numbers (ICC profile, EXIF colour space,
     /// PNG's chunks, OpenEXR's chromaticities) determine the curve. Alpha is dropped, except that fully
     /// transparent pixels count as missing, and that colours stored multiplied by it are divided again. The
-    /// picture is turned upright by its EXIF orientation. At most 2
-    /// GiB when decoded and 65536 px per side.
+    /// picture is turned upright by its EXIF orientation. At most 2 GiB when decoded and 65536 px per side.
     ///
     /// # Errors
     /// [`Error::File`] if the file cannot be read, [`Error::Picture`] if it is no picture, damaged, cut

@@ -17,12 +17,11 @@ use super::tiff_directories::Directory;
 use crate::Result;
 use crate::error::counted;
 use crate::image::numbers::{ReadOptions, Scale, Transfer};
+use crate::image::reading::tiff::tags::{BLACK_LEVEL, WHITE_LEVEL};
 
 const BLACK_REPEAT: u16 = 50713;
-const BLACK: u16 = 50714;
 const BLACK_DELTA_H: u16 = 50715;
 const BLACK_DELTA_V: u16 = 50716;
-const WHITE: u16 = 50717;
 
 /// More levels than any pattern has.
 const MAX_LEVELS: usize = 1 << 12;
@@ -70,7 +69,7 @@ impl Levels {
             [rows, columns] => (rows as usize, columns as usize),
             _ => (1, 1),
         };
-        let black = spread(numbers(BLACK, "BlackLevel")?, rows.saturating_mul(columns), samples, 0.0)
+        let black = spread(numbers(BLACK_LEVEL, "BlackLevel")?, rows.saturating_mul(columns), samples, 0.0)
             .and_then(|levels| Array3::from_shape_vec((rows, columns, samples), levels).ok())
             .filter(|levels| !levels.is_empty());
         let pattern = || format!("its BlackLevel does not fit a pattern of {rows} x {columns} sites");
@@ -79,7 +78,7 @@ impl Levels {
             origin: active.p,
             by_column: deltas(BLACK_DELTA_H, "BlackLevelDeltaH", active.d.w, "columns")?,
             by_row: deltas(BLACK_DELTA_V, "BlackLevelDeltaV", active.d.h, "rows")?,
-            white: spread(numbers(WHITE, "WhiteLevel")?, 1, samples, full_scale).ok_or_else(|| {
+            white: spread(numbers(WHITE_LEVEL, "WhiteLevel")?, 1, samples, full_scale).ok_or_else(|| {
                 damaged(path, format!("its WhiteLevel does not fit {}", counted(samples, "sample")))
             })?,
         })
