@@ -204,7 +204,7 @@ fn start_threads(count: Option<u16>) -> Result<()> {
     let all = || std::thread::available_parallelism().map_or(1, NonZero::get);
     let count = count.map(usize::from).or_else(in_environment).unwrap_or_else(all);
     // running threads abort the program if the stack of a later one leaves them no memory
-    let room = LEAST_ROOM + STACK * count as u64;
+    let room = LEAST_ROOM.saturating_add(STACK.saturating_mul(count as u64));
     room::ask(room, &format!("a run on {}", counted(count, "thread")), "use fewer with --threads")?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count);
     pool.build_global().map_err(|error| {
@@ -234,7 +234,7 @@ fn field_and_file(text: &str) -> std::result::Result<(String, PathBuf), String> 
     }
 }
 
-/// Parses the file name of a drawing; `-` is the terminal.
+/// Parses the file name of a drawing.
 ///
 /// # Errors
 /// A message for the command line, if it ends neither in .svg nor in .png.
@@ -242,8 +242,18 @@ pub fn drawing(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).as_deref() {
         Some("svg" | "png") => Ok(path),
-        _ if text == "-" => Ok(path),
-        _ => Err("end the name in .svg or .png, or write - for the terminal".to_owned()),
+        _ => Err("end the name in .svg or .png".to_owned()),
+    }
+}
+
+/// Parses the file name of a drawing, or `-` for the terminal.
+///
+/// # Errors
+/// As [`drawing`].
+pub fn drawing_or_terminal(text: &str) -> std::result::Result<PathBuf, String> {
+    match text {
+        "-" => Ok(text.into()),
+        _ => drawing(text).map_err(|problem| format!("{problem}, or write - for the terminal")),
     }
 }
 

@@ -121,7 +121,14 @@ impl Donaldson {
             })
         };
         let excitation_nm = columns.iter().map(wavelength_nm).collect::<Result<Vec<_>>>()?;
-        let emission = WavelengthGrid::new(columns[0].wavelengths_nm().to_vec())?;
+        let [first, others @ ..] = columns.as_slice() else {
+            return Err(bad(path, "it has no columns".to_owned(), "write one per excitation wavelength"));
+        };
+        if others.iter().any(|column| column.wavelengths_nm() != first.wavelengths_nm()) {
+            let problem = "its columns have different wavelengths".to_owned();
+            return Err(bad(path, problem, "write the same wavelengths of emission for all of them"));
+        }
+        let emission = WavelengthGrid::new(first.wavelengths_nm().to_vec())?;
         let factors = DMatrix::from_fn(emission.len(), columns.len(), |row, n| columns[n].values()[row]);
         let stem = std::path::Path::new(path).file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Self::new(&stem, emission, WavelengthGrid::new(excitation_nm)?, &factors)

@@ -25,7 +25,7 @@ const FIELDS_MAX: usize = 1000;
 
 /// Most values read from one field: numbers at full precision reach the longest line first. Short ones,
 /// `1,1,1`, take many times the memory of their text.
-const VALUES_MAX: usize = 1 << 26;
+pub(super) const VALUES_MAX: usize = 1 << 26;
 
 /// The fields of one record.
 #[derive(Clone, Debug, Default)]

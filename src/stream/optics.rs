@@ -108,6 +108,9 @@ impl Optics {
     }
 }
 
+/// The fields of a scene that say what its light is.
+const OF_LIGHT: [&str; 4] = ["illuminants", "sky_illuminant", "daylight_assumed", "illuminant_unknown"];
+
 impl Scene {
     /// Camera and illuminants of the scene.
     ///
@@ -132,7 +135,7 @@ impl Scene {
         WavelengthGrid::new(wavelengths_nm).map_err(|e| Error::field("wavelengths_nm", e))
     }
 
-    /// Sets camera and illuminants.
+    /// Sets camera and illuminants in place of what the scene says of them.
     ///
     /// # Errors
     /// As [`Fields::set`](super::Fields::set).
@@ -142,6 +145,7 @@ impl Scene {
         if optics.illuminants.is_empty() {
             return self.forget_light();
         }
+        self.remove_light();
         self.fields.set("illuminants", &optics.illuminants)?;
         optics.sky.as_ref().map_or(Ok(()), |sky| self.fields.set("sky_illuminant", sky))
     }
@@ -151,10 +155,12 @@ impl Scene {
     /// # Errors
     /// As [`Fields::set`](super::Fields::set).
     pub fn forget_light(&mut self) -> Result<()> {
-        ["illuminants", "sky_illuminant", "daylight_assumed"]
-            .iter()
-            .for_each(|name| self.fields.remove(name));
+        self.remove_light();
         self.fields.set("illuminant_unknown", true)
+    }
+
+    fn remove_light(&mut self) {
+        OF_LIGHT.iter().for_each(|name| self.fields.remove(name));
     }
 
     /// Whether the light is unknown.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use ndarray::ArrayD;
 use serde_json::Value;
 
+use super::fields::VALUES_MAX;
 use super::{ArrayStack, Fields};
 use crate::error::Result;
 
@@ -88,7 +89,10 @@ fn measure(value: &Value, depth: usize, shape: &mut Vec<usize>) {
 fn collect(value: &Value, shape: &[usize], values: &mut Vec<f64>) -> Option<()> {
     match (value, shape) {
         (Value::Null, _) => {
-            values.resize(values.len() + shape.iter().product::<usize>(), f64::NAN);
+            // the text of nulls is short: a small record may ask for any amount of memory
+            let count = shape.iter().try_fold(1, |count: usize, extent| count.checked_mul(*extent))?;
+            let all = values.len().checked_add(count).filter(|all| *all <= VALUES_MAX)?;
+            values.resize(all, f64::NAN);
             Some(())
         }
         (Value::Number(number), []) => {
@@ -124,6 +128,15 @@ mod tests {
         assert!(numbers(&json!([[1, 2], [3]])).is_none());
         assert!(numbers(&json!(["a"])).is_none());
         assert_eq!(numbers(&json!(4.0)).unwrap(), arr0(4.0).into_dyn());
+    }
+
+    /// A short text would otherwise take any amount of memory.
+    #[test]
+    fn nulls_stand_for_no_more_than_a_field_may_hold() {
+        let (rows, nulls) = (VALUES_MAX / 1000, vec![json!(null); 2000]);
+        let with_nulls = |nulls: &[Value]| json!([&[json!(vec![0; rows])], nulls].concat());
+        assert_eq!(numbers(&with_nulls(&nulls[..10])).unwrap().shape(), [11, rows]);
+        assert!(numbers(&with_nulls(&nulls)).is_none());
     }
 
     #[test]

@@ -43,6 +43,7 @@ fn geometry() {
             case("vkernel --samples -5", 2, &["'-5' for '--samples", "0..="]),
             case("vkernel --seed -5", 2, &["'-5' for '--seed", "a whole number of 0 or more"]),
             case("vkernel --facets -5", 2, &["'-5' for '--facets", "10x10"]),
+            case("vkernel --plot -", 2, &["--plot", "end the name in .svg or .png"]),
             case("vkernel --threads -5", 2, &["'-5' for '--threads", "1..=1024"]),
             case("vkernel -5", 2, &["unexpected argument '-5'"]),
             case("vkernel --save kernel", 2, &["--save", "FIELD=FILE"]),

@@ -104,7 +104,18 @@ fn nothing_is_said_of_what_fails() {
 fn threads_that_cannot_be_had() {
     assert_refused(
         "",
-        &[case("ulimit -v 400000; vkernel -j 1024 --facets 2x2", 1, &["a run on 1024 threads", "--threads"])],
+        &[
+            case(
+                "ulimit -v 400000; vkernel -j 1024 --facets 2x2",
+                1,
+                &["a run on 1024 threads", "--threads"],
+            ),
+            case(
+                "RAYON_NUM_THREADS=9999999999999999 vkernel --facets 2x2",
+                1,
+                &["a run on 9999999999999999 threads", "--threads"],
+            ),
+        ],
     );
 }
 

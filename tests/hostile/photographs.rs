@@ -181,6 +181,13 @@ END
             case("sh extract bytes.txt", 1, &["bytes.txt", "UTF-8"]),
             case("sh extract .", 1, &["directory"]),
             case("vextract --files-from - --panel0 '0,0 9,0 9,9 0,9'", 2, &["--files-from", "--scene FILE"]),
+            case(
+                "echo x.exr | vextract --files-from - --scene scene.json --regions -",
+                2,
+                &["--regions", "list of photographs", "--regions FILE"],
+            ),
+            // which reads no scene
+            case("echo x.exr | vextract --find --files-from -", 1, &["x.exr", "No such file"]),
         ],
     );
 }

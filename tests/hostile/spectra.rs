@@ -22,6 +22,13 @@ fn tables_of_spectra() {
         printf 'nm,r\n400,\0420.1\n700,0.3\n' > quote.csv
         printf 'nm,r\n0.4,0.1\n0.7,0.3\n' > micrometres.csv
         printf 'nm,r\n' > rowless.csv
+        printf 'no,wavelength\n1,400\n2,500\n3,700\n' > lonely.csv
+        spectrum() {
+            echo '<SpectralDistribution>'
+            for nm; do printf '<SpectralData wavelength=\042%s\042>0.1</SpectralData>\n' $nm; done
+            echo '</SpectralDistribution>'
+        }
+        { printf '<IESTM2714 version=\0421.0\042>\n'; spectrum 300 400 700; spectrum 300 700; echo '</IESTM2714>'; } > two.spdx
         : > empty.csv
         head -c 300 /bin/sh > binary.csv
         printf 'nm,r\n400,0\n700,0\n' > dark.csv",
@@ -59,6 +66,13 @@ fn tables_of_spectra() {
             case("vforward scene.json --reflectance quote.csv", 1, &["quote.csv:2", "quote"]),
             case("vforward scene.json --reflectance micrometres.csv", 1, &["micrometres.csv:2", "um"]),
             case("vforward scene.json --reflectance rowless.csv", 1, &["rowless.csv", "two wavelengths"]),
+            case("vforward scene.json --donaldson lonely.csv", 1, &["lonely.csv", "one column per spectrum"]),
+            case(
+                "vforward scene.json --reflectance 0.5 --illuminant lonely.csv",
+                1,
+                &["lonely.csv", "one column per spectrum"],
+            ),
+            case("vforward scene.json --donaldson two.spdx", 1, &["two", "different wavelengths"]),
             case("vforward scene.json --reflectance empty.csv", 1, &["empty.csv:1", "header"]),
             case("vforward scene.json --reflectance binary.csv", 1, &["binary.csv"]),
             case("vforward scene.json --reflectance nan.csv:g", 1, &["nan.csv"]),

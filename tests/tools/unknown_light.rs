@@ -22,6 +22,24 @@ fn rms(a: &[f64], b: &[f64]) -> f64 {
     (squares / a.len() as f64).sqrt()
 }
 
+/// What an earlier run stated, or assumed, of the light is not what a later one states.
+#[test]
+fn a_scene_that_is_lit_anew_keeps_nothing_of_its_old_light() {
+    let run = Workdir::new().sh(&format!(
+        "vkernel --angle-deg 50 -o fold.json
+        extract() {{ vextract -q '{PHOTO}' --camera canon-5d-mark-ii {PANELS} --no-history \"$@\" | head -n 1; }}
+        vforward -q fold.json --reflectance 0.5 --illuminant sun:40deg --sky-illuminant sky --no-history |
+            head -n 1 > blue.json
+        extract --scene fold.json --illuminant unknown > unknown.json
+        extract --scene fold.json > assumed.json
+        for scene in fold blue unknown assumed; do extract --scene $scene.json --illuminant A; done"
+    ));
+    let scenes: Vec<&str> = run.stdout.lines().collect();
+    assert!(run.status == 0 && scenes.len() == 4, "{run:?}");
+    let fields = |scene: &str| serde_json::from_str::<Value>(scene).unwrap();
+    scenes[1..].iter().for_each(|scene| assert_eq!(fields(scene), fields(scenes[0])));
+}
+
 /// Facets of computed sheets, and of a photograph: they end where they would if the light had been stated.
 #[test]
 fn one_candidate_is_a_light_that_is_stated() {

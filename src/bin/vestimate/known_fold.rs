@@ -184,8 +184,6 @@ impl KnownFold {
             }
         }
         let mut lit = self.scene.clone();
-        lit.forget_light()?;
-        lit.fields.remove("illuminant_unknown");
         lit.set_optics(samples)?;
         if *is_daylight_assumed {
             lit.set_daylight_assumed()?;

@@ -11,15 +11,10 @@ use super::Args;
 /// Those on the command line, then those in the list.
 ///
 /// # Errors
-/// [`Error::Usage`] if no pictures are named, or list and scene both come from standard input;
-/// [`Error::File`] if the list cannot be read.
+/// [`Error::Usage`] if no pictures are named; [`Error::File`] if the list cannot be read.
 pub fn images(args: &Args) -> Result<Vec<PathBuf>> {
     let mut images = args.images.clone();
     if let Some(list) = &args.files_from {
-        if list == Path::new("-") && args.scene == "-" {
-            let problem = "the list and the scene cannot both come from standard input";
-            return Err(Error::usage("--files-from", problem, "give --scene FILE"));
-        }
         images.extend(names(list).map_err(|e| Error::file(list.display(), e))?);
         if images.is_empty() {
             let problem = format!("{} names no photograph", list.display());

@@ -20,7 +20,7 @@ mod sample;
 mod target;
 mod white;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
@@ -139,8 +139,27 @@ fn main() -> ExitCode {
     cli::run(tool)
 }
 
+/// Refuses to read two things from standard input: of two, one would find nothing there.
+fn check_standard_input(args: &Args) -> Result<()> {
+    let is_without_scene = args.find || args.pick || args.pictures.is_preview();
+    let is_scene = args.scene == "-" && !is_without_scene && args.calibration.save_camera.is_none();
+    let is_list = args.files_from.as_deref().is_some_and(|list| list == Path::new("-"));
+    let are_regions = args.regions.is_stdin();
+    cli::refuse(
+        [("--files-from", is_list && is_scene), ("--regions", are_regions && is_scene)],
+        "standard input is already the scene",
+        "give --scene FILE",
+    )?;
+    cli::refuse(
+        [("--regions", are_regions && is_list)],
+        "standard input is already the list of photographs",
+        "give --regions FILE",
+    )
+}
+
 fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let reading = args.reading.reading()?;
+    check_standard_input(args)?;
     let images = list::images(args)?;
     args.pictures.check(&images)?;
     args.placing.check()?;
@@ -154,12 +173,6 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if args.pick {
         return picking::print(args, &images, &reading, out);
     }
-    let takes_scene = args.calibration.save_camera.is_none() && args.scene == "-";
-    cli::refuse(
-        [("--regions", args.regions.is_stdin() && takes_scene)],
-        "standard input is already the scene",
-        "give --scene FILE",
-    )?;
     let regions = args.regions.resolved()?;
     let calibration = args.calibration.resolved(&args.optics.wavelengths_nm, &args.common)?;
     args.optics.one_illuminant("name one: a photograph has one light")?;

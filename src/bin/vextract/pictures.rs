@@ -37,6 +37,11 @@ impl PictureArgs {
         Ok(())
     }
 
+    /// Whether previews are requested.
+    pub fn is_preview(&self) -> bool {
+        self.preview.is_some()
+    }
+
     /// Writes previews if requested; returns whether they are.
     ///
     /// # Errors

@@ -75,7 +75,7 @@ struct Args {
     /// Draw estimates with their error bands, true spectra, the sheets' colours, flat and folded, and the
     /// residuals of a single sheet; for more than seven samples, the distribution of scores and the ten
     /// worst; -: spectra on standard error, in characters as wide as the terminal
-    #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing)]
+    #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing_or_terminal)]
     plot: Option<PathBuf>,
     /// Write an HTML page with all results and the tools' decisions, for browsers and printers; of many
     /// samples it shows the worst 24. Neither this nor --plot needs true spectra

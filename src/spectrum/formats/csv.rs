@@ -78,6 +78,9 @@ pub(super) fn parse_from(Place { path, line }: Place, text: &str) -> Result<Tabl
     let (wavelengths_nm, note) = units::to_nm(at, header.trim(), &columns[first], first_row)?;
     let wavelengths_nm: std::sync::Arc<[f64]> = wavelengths_nm.into();
     let mut named: Vec<_> = names.iter().zip(columns).enumerate().skip(first + 1).collect();
+    if named.is_empty() {
+        return Err(at.fails("no column beside that of the wavelengths", "write one column per spectrum"));
+    }
     let (count, known) = (named.len(), names[first + 1..].iter().map(|cell| name(cell)).collect());
     named.retain(|(_, (cell, _))| !is_deviation(name(cell), &known));
     let numbered = (first > 0).then_some("row numbers left out");

@@ -61,7 +61,9 @@ impl<'a> Tiff<'a> {
                 break;
             }
             for entry in directory.entries().filter(|entry| POINTERS.contains(&entry.tag)) {
-                waiting.extend(self.longs(&entry));
+                // more are too many, and each visit of a directory that points to itself would add them again
+                let room = (DIRECTORIES_MAX + 1).saturating_sub(waiting.len());
+                waiting.extend(self.longs(&entry).take(room));
             }
             waiting.extend(directory.next());
         }
