@@ -3,7 +3,6 @@
 use nalgebra::DVector;
 
 use super::normal::Normal;
-use super::photograph::priors::Priors;
 
 /// Maximum number of steps to the most probable exposure, and the relative change at convergence: from the
 /// second on, each step gains two digits.
@@ -40,15 +39,6 @@ impl Exposure {
         match (self, known) {
             (Self::Free, Some(known)) => Self::Expected(known),
             _ => self,
-        }
-    }
-
-    /// The same for a photograph: an unknown exposure gets the prior of [usual exposures](Priors::exposure).
-    #[must_use]
-    pub fn of_photograph(self) -> Self {
-        match self {
-            Self::Free => Self::Expected(Priors::USUAL.exposure()),
-            stated => stated,
         }
     }
 

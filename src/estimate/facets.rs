@@ -5,9 +5,7 @@ use std::ops::AddAssign;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::data::{
-    Curvature, FacetData, FittedExposure, LinearisedFacets, Predicted, Residuals, SecondDerivatives,
-};
+use super::data::{Curvature, FacetData, FittedExposure, LinearisedFacets, Predicted, SecondDerivatives};
 use super::emission::{Emission, Fall, Sent};
 use super::family::{Family, SpectrumModel, widened};
 use super::gaussian::{Gaussian, logistic, mean_slope};
@@ -197,7 +195,7 @@ impl Family for FacetData<'_> {
     }
 
     fn peak(&self) -> f64 {
-        self.peak()
+        self.peak
     }
 
     fn tolerance(&self) -> f64 {
@@ -216,14 +214,18 @@ impl Model for Facets<'_> {
     fn evaluate(&self, w: &DVector<f64>) -> Evaluated<Point> {
         let (logit, unknowns) = self.split(w);
         let reflectance: Vec<f64> = logit.iter().map(|z| logistic(*z)).collect();
-        let Residuals { residuals, predicted } = self.data.residuals(&reflectance, unknowns.as_slice());
+        let Evaluated { residuals, ingredients: predicted } =
+            self.data.residuals(&reflectance, unknowns.as_slice());
         Evaluated { residuals, ingredients: Point { reflectance, unknowns, predicted } }
     }
 
     fn derivatives(&self, _: &DVector<f64>, at: Evaluated<Point>) -> Linearised<Second> {
         let Evaluated { residuals, ingredients: Point { reflectance, unknowns, predicted } } = at;
-        let LinearisedFacets { residuals, mut jacobian, mut exposure, second } =
-            self.data.derivatives(&reflectance, unknowns.as_slice(), Residuals { residuals, predicted });
+        let LinearisedFacets { residuals, mut jacobian, mut exposure, second } = self.data.derivatives(
+            &reflectance,
+            unknowns.as_slice(),
+            Evaluated { residuals, ingredients: predicted },
+        );
         for (band, r) in reflectance.iter().enumerate() {
             jacobian.column_mut(band).scale_mut(r * (1.0 - r));
             exposure.slopes[band] *= r * (1.0 - r);

@@ -22,6 +22,12 @@ use crate::solve::posterior::{Linearised, Model};
 /// weighed at all widths, which takes most of the time.
 const FIRST_WIDTHS: [Width; 2] = [Width { scale: 1, roughness: 0 }, Width { scale: 2, roughness: 1 }];
 const LN_EVIDENCE_NEAR: f64 = -6.0;
+/// Maximum number of candidates searched, and their least log evidence relative to the first; then the same
+/// where data do not distinguish classes.
+const TRIED: usize = 3;
+const LN_EVIDENCE_LEAST: f64 = -3.0;
+const UNSEPARATED_TRIED: usize = 24;
+const UNSEPARATED_LN_EVIDENCE_LEAST: f64 = -5.0;
 /// Number of values by which most classes are ruled out.
 const FEW_VALUES: usize = 4;
 /// Number of directions in logit about which data must say more than the prior of all spectra to distinguish
@@ -53,9 +59,9 @@ impl Width {
 
 /// The model under a hypothesis, linearised about a point.
 pub struct Linear<H> {
-    hypothesis: H,
+    pub hypothesis: H,
     /// Logarithm of the prior probability.
-    ln_share: f64,
+    pub ln_share: f64,
     /// Factor by which the noise was tempered; everything below is in units of that noise.
     tempering: f64,
     logit: DVector<f64>,
@@ -72,9 +78,9 @@ pub struct Linear<H> {
 
 /// A class of spectra under a hypothesis, with its evidence.
 pub struct Candidate<H> {
-    linear: Rc<Linear<H>>,
+    pub linear: Rc<Linear<H>>,
     /// Index of the class in the prior.
-    pub class: usize,
+    class: usize,
     /// Its probable scale, and an index into [`ROUGHNESSES`].
     scale: f64,
     roughness: usize,
@@ -377,17 +383,20 @@ pub fn candidates<F: Family>(
     weighed
 }
 
+/// Those of `candidates`, in order of evidence, that are worth a search: more of them if data are not
+/// `telling`.
+pub fn worth_a_search<H>(candidates: &[Candidate<H>], is_telling: bool) -> &[Candidate<H>] {
+    let (most, ln_least) = if is_telling {
+        (TRIED, LN_EVIDENCE_LEAST)
+    } else {
+        (UNSEPARATED_TRIED, UNSEPARATED_LN_EVIDENCE_LEAST)
+    };
+    let least = candidates.first().map_or(0.0, |best| best.ln_evidence + ln_least);
+    let enough = candidates.partition_point(|one| one.ln_evidence >= least);
+    &candidates[..enough.min(most)]
+}
+
 impl<H: Copy> Candidate<H> {
-    /// The hypothesis.
-    pub fn hypothesis(&self) -> H {
-        self.linear.hypothesis
-    }
-
-    /// Logarithm of the probability of the hypothesis.
-    pub fn ln_share_of_hypothesis(&self) -> f64 {
-        self.linear.ln_share
-    }
-
     /// The Gaussian of the class, at its probable width.
     pub fn gaussian(&self, prior: &Prior) -> Gaussian {
         prior.classes()[self.class].rough(self.roughness).scaled(self.scale)

@@ -61,18 +61,18 @@ pub fn estimate_in(
     let (found, rival) = sheet.most_probable((start.clone(), others), &mut trace).ok_or_else(not_finite)?;
     // the mode lies on the bounds of unknowns that exceed them; its error bars are those of the unconstrained
     // mode, to both sides
-    let (mut known, mut on_bounds) = (data.clone(), None::<Found>);
+    let (mut known, mut on_bounds) = (data.clone(), None::<Searched>);
     loop {
-        let Found { searched, .. } = on_bounds.as_ref().unwrap_or(&found);
+        let searched = on_bounds.as_ref().unwrap_or(&found);
         let Some((unknown, bound)) = impossible(&known, &searched.mixture) else { break };
         known = known.with_known(unknown, bound);
         let sheet = Sheet { data: &known, ..sheet };
         let (found, _) = sheet.most_probable((start.clone(), None), &mut trace).ok_or_else(not_finite)?;
         on_bounds = Some(found);
     }
-    let Found { searched, lights_of } = on_bounds.as_ref().unwrap_or(&found);
-    let light = (!lights.is_empty()).then(|| inferred(lights, lights_of, &searched.mixture));
-    Ok((Estimate { light, ..searched.estimate(data, &found.searched.mixture, trace) }, rival))
+    let searched = on_bounds.as_ref().unwrap_or(&found);
+    let light = (!lights.is_empty()).then(|| inferred(lights, searched));
+    Ok((Estimate { light, ..searched.estimate(data, &found.mixture, trace) }, rival))
 }
 
 /// Facets of a sheet in the stated light or in one of several.
@@ -86,27 +86,22 @@ struct Sheet<'r, 'a> {
     tempering: f64,
 }
 
-/// The mean of all modes, unconstrained by the ranges of the unknowns, and the light of each alternative.
-struct Found<'a> {
-    searched: Searched<'a>,
-    lights_of: Vec<usize>,
-}
-
 impl<'a> Sheet<'_, 'a> {
-    /// `None` if the facets are not finite.
+    /// The mean of all modes, unconstrained by the ranges of the unknowns; `None` if the facets are not
+    /// finite.
     fn most_probable(
         &self,
         (start, others): (Option<DVector<f64>>, Option<&Others>),
         trace: &mut Trace,
-    ) -> Option<(Found<'a>, Option<Rival>)> {
+    ) -> Option<(Searched<'a>, Option<Rival>)> {
         // precise facets are either explained by a sheet without emission or not: emission is considered only
         // in the latter case
         let may_emit = self.tempering <= PRECISE;
         let all = self.sorted((start, may_emit), trace);
         let rival = others.and_then(|others| rival(self.data, all.split_first()?, others, self.prior));
         let emits = all.iter().any(Lit::emits);
-        let found = self.mean(all, trace)?;
-        let rms = found.searched.mixture.best.rms;
+        let found = Searched::among(all, self.prior, trace)?;
+        let rms = found.mixture.best.rms;
         // precise facets whose residuals reach a noise at which emission is considered may belong to a
         // fluorescent sheet
         let is_open = if may_emit { emits } else { rms > self.tempering };
@@ -114,16 +109,9 @@ impl<'a> Sheet<'_, 'a> {
             return Some((found, rival));
         }
         // the evidence of sheets that do not explain the facets is meaningless
-        let other = self.mean(self.sorted((None, !may_emit), trace), trace)?;
-        let is_better = may_emit || other.searched.mixture.best.rms < EXPLAINED;
+        let other = Searched::among(self.sorted((None, !may_emit), trace), self.prior, trace)?;
+        let is_better = may_emit || other.mixture.best.rms < EXPLAINED;
         Some((if is_better { other } else { found }, rival))
-    }
-
-    fn mean(&self, all: Vec<Lit<'a>>, trace: &mut Trace) -> Option<Found<'a>> {
-        let lights_of = all.iter().map(|one| one.light).collect();
-        let (searched, more) = Searched::among(all, self.prior)?;
-        trace.extend(more);
-        Some(Found { searched, lights_of })
     }
 
     /// The facets in each light that remains possible, under all spectra as one Gaussian: of a sheet without
@@ -193,10 +181,11 @@ fn most(all: &[Lit]) -> f64 {
     all.iter().map(|one| one.sorted.ln_weight()).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// The lights with their probabilities, given the light of each alternative.
-fn inferred(lights: &[Candidate], lights_of: &[usize], found: &Mixture<usize, Second>) -> InferredLight {
+/// The lights with their probabilities.
+fn inferred(lights: &[Candidate], found: &Searched) -> InferredLight {
     let mut probabilities = vec![0.0; lights.len()];
-    found.shares.iter().for_each(|(alternative, share)| probabilities[lights_of[*alternative]] += share);
+    let shares = found.mixture.shares.iter();
+    shares.for_each(|(alternative, share)| probabilities[found.lights[*alternative]] += share);
     let weighed = |(light, probability): (&Candidate, f64)| light.weighed(probability);
     let powers = lights.iter().map(|light| light.power.as_slice());
     InferredLight::of(iter::zip(iter::zip(lights, probabilities).map(weighed), powers))

@@ -13,7 +13,8 @@ use super::light::{self, Candidate, Others, Shown};
 use super::measured::Measured;
 use super::other_camera::{OtherCameras, rival_camera};
 use super::photograph::day::Day;
-use super::photograph::{self, Parts, SheetEstimate, StatedScene, Unmodelled, Weighed};
+use super::photograph::priors::Priors;
+use super::photograph::{self, Parts, SheetEstimate, StatedScene, Unmodelled};
 use super::prior::Prior;
 use super::rival::Rival;
 use super::shading::Shading;
@@ -110,12 +111,11 @@ impl Inference {
         exposure: Exposure,
         is_photograph: bool,
     ) -> Result<FacetData<'_>> {
-        let exposure = if is_photograph {
-            exposure.of_photograph()
-        } else {
-            exposure.or_expected(self.shown.as_ref().and_then(|shown| shown.exposure))
+        let expected = match is_photograph {
+            true => Some(Priors::USUAL.exposure()),
+            false => self.shown.as_ref().and_then(|shown| shown.exposure),
         };
-        let data = FacetData::new(&self.model, measured, exposure, CUTOFF)?;
+        let data = FacetData::new(&self.model, measured, exposure.or_expected(expected), CUTOFF)?;
         // other effects in a photograph look like fluorescence
         Ok(if is_photograph { data.without_fluorescence() } else { data })
     }
@@ -158,17 +158,16 @@ impl Inference {
             stated: StatedScene { shown: Some(shown), ..parts.stated },
             ..parts.clone()
         });
-        let Weighed { modes, possible } =
-            photograph::weigh(slice::from_ref(lit.as_ref().unwrap_or(parts)), prior)?;
+        let weighed = photograph::weigh(slice::from_ref(lit.as_ref().unwrap_or(parts)), prior)?;
         let is_named = photograph.making.taken_by != Default::default();
         let cameras = self.other_cameras.as_ref().filter(|_| !is_named || parts.eye.is_stand_in);
-        // three searches that all start from the modes
+        // three searches that all start from there
         let (sheet, (light, camera)) = rayon::join(
-            || modes.estimate(possible, prior),
+            || weighed.estimate(prior),
             || {
                 rayon::join(
-                    || light::rival_in_photograph(parts, &modes, self.other_lights.as_deref()?, prior),
-                    || rival_camera(parts, &modes, cameras?, prior),
+                    || light::rival_in_photograph(parts, &weighed, self.other_lights.as_deref()?, prior),
+                    || rival_camera(parts, &weighed, cameras?, prior),
                 )
             },
         );

@@ -8,6 +8,9 @@ use super::prior::Prior;
 use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Linearised, Model, Solution};
 
+/// Spectra of a class count as one if their root mean square difference is less.
+pub const APART: f64 = 0.005;
+
 /// The mode under a hypothesis and a class of spectra.
 pub struct LocalMode<H, S> {
     /// Where the search ended.
@@ -64,11 +67,11 @@ impl<H: Copy, S> LocalMode<H, S> {
         }
     }
 
-    /// True if it is the same mode: of the same class, with reflectances in `bands` wavebands that differ by
-    /// less than `apart`.
-    pub fn is_again(&self, other: &Self, bands: usize, apart: f64) -> bool {
+    /// True if it is the same mode: of the same class, with reflectances that count as one.
+    pub fn is_again(&self, other: &Self) -> bool {
+        let bands = self.start.gaussian.mean().len();
         let off = self.values.iter().zip(&other.values).take(bands).map(|(a, b)| (a - b).powi(2));
-        self.start.class == other.start.class && off.sum::<f64>() < apart * apart * bands as f64
+        self.start.class == other.start.class && off.sum::<f64>() < APART * APART * bands as f64
     }
 }
 
@@ -80,7 +83,7 @@ impl<H: Copy> Unsearched<H> {
         candidate: &Candidate<H>,
         prior: &Prior,
     ) -> Option<Self> {
-        let hypothesis = candidate.hypothesis();
+        let hypothesis = candidate.linear.hypothesis;
         let gaussian = candidate.gaussian(prior);
         let LinearMode { w, ln_evidence_of_fit } = candidate.maximum(&gaussian)?;
         let model = family.model(hypothesis, &gaussian)?;

@@ -23,7 +23,6 @@ pub mod map;
 pub mod measured;
 pub mod measurement;
 mod mixture;
-mod most_evidence;
 pub mod noise;
 mod normal;
 pub mod other_camera;

@@ -7,12 +7,15 @@
 
 use std::sync::OnceLock;
 
+use super::family::Family;
 use super::photograph::hypotheses::Hypothesis;
-use super::photograph::{Modes, Parts};
+use super::photograph::{Parts, Weighed};
 use super::prior::Prior;
 use super::rival::{LN_AHEAD, Rival, ln_enough};
 use super::search::Search;
 use crate::camera::known_sensitivities;
+use crate::solve::forecast::ScoreTest;
+use crate::solve::posterior::Model;
 use crate::spectrum::WavelengthGrid;
 
 /// Log evidence ratio that outweighs a statement, fifty to one. Fitted to `../shared/train`: none of its 48
@@ -69,26 +72,31 @@ impl OtherCameras {
 }
 
 /// The camera among `others`, if any, with which a photograph is much more probable than with the stated one,
-/// given the modes of its search.
-pub fn rival_camera(parts: &Parts, modes: &Modes, others: &OtherCameras, prior: &Prior) -> Option<Rival> {
-    let Modes { photographs, ln_by_emission, .. } = modes;
-    let (day, mode) = modes.of_day()?;
+/// given its hypotheses as weighed.
+pub fn rival_camera(parts: &Parts, weighed: &Weighed, others: &OtherCameras, prior: &Prior) -> Option<Rival> {
+    let Weighed { photographs, of_family, ln_by_emission, .. } = weighed;
+    let (day, mode) = of_family.as_ref()?;
     let hypothesis = Hypothesis::of_family(*day);
     let mut search = Search::new(photographs, prior);
     // the mode of a sheet that may emit light has more numbers
     let start = Some(mode.clone()).filter(|w| Some(w.len()) == photographs.unknowns(hypothesis, prior));
     let stated = search.sort((hypothesis, 0.0), start, f64::NEG_INFINITY)?;
-    let (test, residuals) = (search.score_test(&stated)?, &stated.solution.at.residuals);
+    let (test, residuals) =
+        (ScoreTest::at(&stated.solution, search.tempering())?, &stated.solution.at.residuals);
+    let of_stated = photographs.model(hypothesis, prior.broad())?;
     let mut hopeful: Vec<_> = others
         .cameras()
         .iter()
         .filter_map(|camera| {
             let parts = parts.taken_by(&camera.sensitivities);
-            let family = photographs.in_light_of(&parts);
-            let start = family.carried((photographs, &stated.solution.w), hypothesis, prior)?;
-            let change = residuals - family.residuals(hypothesis, &start, prior)?;
+            let (start, change) = {
+                let family = photographs.in_light_of(&parts);
+                let model = family.model(hypothesis, prior.broad())?;
+                let start = model.carried(&of_stated, &stated.solution.w);
+                let change = residuals - model.residuals(&start);
+                (start, change)
+            };
             let ln_gain = test.ln_gain_by(1.0, &change);
-            drop(family);
             (ln_gain > LN_HOPEFUL + ln_by_emission).then_some((ln_gain, camera, parts, start))
         })
         .collect();

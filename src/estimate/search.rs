@@ -10,13 +10,10 @@ use std::cmp::Ordering;
 use nalgebra::DVector;
 
 use super::family::{Family, SpectrumModel};
-use super::gaussian::Gaussian;
-use super::linear::{Candidate, Linear, Start, candidates};
+use super::linear::{Candidate, Linear, Start, candidates, worth_a_search};
 use super::mixture::{LocalMode, Mixture, Unsearched};
-use super::most_evidence::{APART, of_most_evidence};
 use super::prior::Prior;
 use super::starts::{between_means, from_means};
-use crate::solve::forecast::{ScoreTest, foreseen_cost};
 use crate::solve::posterior::{Iteration, Limits, Model, Solution, find_mode, first_tempering};
 use crate::solve::{Termination, ln_sum};
 
@@ -94,14 +91,14 @@ impl<H, S> Sorted<H, S> {
 
 /// A search within a family of models.
 pub struct Search<'a, F: Family> {
-    family: &'a F,
-    prior: &'a Prior,
+    pub family: &'a F,
+    pub prior: &'a Prior,
     /// Factors by which the noise is tempered while hypotheses and classes are distinguished.
     coarse: f64,
     fine: f64,
     /// Iterations by run.
     pub trace: Vec<Vec<Iteration>>,
-    /// Number of candidates ruled out by the evidence.
+    /// Number of candidates that were not searched, as the evidence is against them.
     pub skipped: usize,
 }
 
@@ -140,37 +137,9 @@ impl<'a, F: Family> Search<'a, F> {
         ln_evidence.is_finite().then_some(Sorted { hypothesis, ln_share, ln_evidence, solution })
     }
 
-    /// The Gaussian of all spectra.
-    pub fn broad(&self) -> &'a Gaussian {
-        self.prior.broad()
-    }
-
     /// Factor by which the noise is tempered while hypotheses are sorted.
     pub fn tempering(&self) -> f64 {
         self.coarse
-    }
-
-    /// Distance of the data from a hypothesis at that noise, as [`Solution::surprise`].
-    pub fn surprise(&self, one: &Sorted<F::Hypothesis, F::Second>) -> f64 {
-        one.solution.surprise(self.coarse)
-    }
-
-    /// Predicts how much more probable data become if the model has one more degree of freedom at the mode of
-    /// a hypothesis.
-    pub fn score_test<'s>(&self, one: &'s Sorted<F::Hypothesis, F::Second>) -> Option<ScoreTest<'s>> {
-        ScoreTest::at(&one.solution, self.coarse)
-    }
-
-    /// Logarithm of how much more probable data may become under a hypothesis, whose model is linearised
-    /// about `start`, than under `one` of another family; volumes of errors are not counted.
-    pub fn ln_gain_from(
-        &self,
-        hypothesis: F::Hypothesis,
-        start: &DVector<f64>,
-        one: &Sorted<F::Hypothesis, F::Second>,
-    ) -> Option<f64> {
-        let model = self.family.model(hypothesis, self.prior.broad())?;
-        Some(0.5 * (one.solution.cost(self.coarse) - foreseen_cost(&model, start, self.coarse)?))
     }
 
     /// The mean of all modes of most evidence under the `sorted` hypotheses.
@@ -189,7 +158,7 @@ impl<'a, F: Family> Search<'a, F> {
         if fine < coarse {
             ranked = self.nearer(&ranked).unwrap_or(ranked);
         }
-        let tried = of_most_evidence(&ranked, |one| one.ln_evidence, is_telling).len();
+        let tried = worth_a_search(&ranked, is_telling).len();
         self.skipped = ranked.len() - tried;
         let starts: Vec<_> = ranked[..tried].iter().filter_map(|one| one.start(family, prior)).collect();
         let limit = if are_precise { LIMIT } else { NOISY_LIMIT } / starts.len().max(1);
@@ -214,7 +183,7 @@ impl<'a, F: Family> Search<'a, F> {
         let another_limit =
             if family.tells_classes() { ANOTHER_LIMIT } else { NOISY_LIMIT / more.len().max(1) };
         let more: Vec<_> = more.into_iter().filter_map(|start| self.maximum(start, another_limit)).collect();
-        add(&mut found, more, prior.broad().mean().len());
+        add(&mut found, more);
         let is_explained = |found: &LocalModes<F>| !are_precise || found.iter().any(explains);
         if !is_explained(&found) {
             found.extend(starts.filter_map(|start| self.maximum(start, limit)));
@@ -291,7 +260,9 @@ impl<'a, F: Family> Search<'a, F> {
         let least = ranked.first()?.ln_evidence + FOLLOWED_LN_EVIDENCE_LEAST;
         let mut firsts: Vec<&Candidate<F::Hypothesis>> = Vec::new();
         for one in ranked.iter().take_while(|one| one.ln_evidence >= least) {
-            if firsts.len() < FOLLOWED && firsts.iter().all(|first| first.hypothesis() != one.hypothesis()) {
+            if firsts.len() < FOLLOWED
+                && firsts.iter().all(|first| first.linear.hypothesis != one.linear.hypothesis)
+            {
                 firsts.push(one);
             }
         }
@@ -308,7 +279,7 @@ impl<'a, F: Family> Search<'a, F> {
         self.trace.push(found.trace);
         match found.termination {
             Termination::Converged { .. } => {
-                let of = (start.hypothesis, candidate.ln_share_of_hypothesis());
+                let of = (start.hypothesis, candidate.linear.ln_share);
                 Linear::laplace(&model, (&found.w, &found.at), self.fine, of)
             }
             Termination::NoProgress { .. } | Termination::IterationLimit => None,
@@ -333,10 +304,10 @@ fn explains<H, S>(one: &LocalMode<H, S>) -> bool {
 }
 
 /// Adds modes that explain the data, each once; all of them if there are no others.
-fn add<H: Copy, S>(found: &mut Vec<LocalMode<H, S>>, more: Vec<LocalMode<H, S>>, bands: usize) {
+fn add<H: Copy, S>(found: &mut Vec<LocalMode<H, S>>, more: Vec<LocalMode<H, S>>) {
     let all_count = found.is_empty();
     for one in more {
-        if (all_count || explains(&one)) && !found.iter().any(|other| one.is_again(other, bands, APART)) {
+        if (all_count || explains(&one)) && !found.iter().any(|other| one.is_again(other)) {
             found.push(one);
         }
     }

@@ -9,13 +9,12 @@ use super::fluorescence_search;
 use super::mixture::Mixture;
 use super::prior::Prior;
 use super::search::{Search, Sorted};
-use super::unknowns::EXPOSURE;
+use super::unknowns::{EXPOSURE, SUPPORTED};
 use super::{Estimate, Fitted};
 use crate::solve::posterior::Iteration;
 
-/// A fitted number is supported by the facets if its standard deviation is below this share of the prior one;
-/// an exposure, which has no prior, if its standard deviation is below this share of its value.
-const SUPPORTED: f64 = 0.8;
+/// An exposure, which has no prior, is supported by the facets if its standard deviation is below this share
+/// of its value.
 const EXPOSURE_SUPPORTED: f64 = 0.5;
 
 /// Iterations by run.
@@ -24,6 +23,8 @@ pub type Trace = Vec<Vec<Iteration>>;
 /// The mean of all modes under some alternatives.
 pub struct Searched<'a> {
     pub mixture: Mixture<usize, Second>,
+    /// Index of the light of each alternative.
+    pub lights: Vec<usize>,
     /// As given, and with the same indices.
     alternatives: Alternatives<'a, 'a>,
 }
@@ -44,12 +45,13 @@ impl Lit<'_> {
 }
 
 impl<'a> Searched<'a> {
-    /// Searches alternatives, those without emission first; `None` if there are none, or facets are not
-    /// finite.
-    pub fn among(all: Vec<Lit<'a>>, prior: &Prior) -> Option<(Self, Trace)> {
+    /// Searches alternatives, those without emission first, and adds to their `trace`; `None` if there are
+    /// none, or facets are not finite.
+    pub fn among(all: Vec<Lit<'a>>, prior: &Prior, trace: &mut Trace) -> Option<Self> {
         if all.is_empty() {
             return None;
         }
+        let lights = all.iter().map(|one| one.light).collect();
         let all = all.into_iter().enumerate();
         let (alternatives, mut sorted): (Vec<_>, Vec<_>) =
             all.map(|(n, Lit { data, sorted, .. })| (data, sorted.for_hypothesis(n))).unzip();
@@ -57,8 +59,8 @@ impl<'a> Searched<'a> {
         let alternatives = Alternatives::of(alternatives.into_iter().map(|data: FacetData<'a>| move || data));
         let mut search = Search::new(&alternatives, prior);
         let mixture = search.mixture(&sorted)?;
-        let trace = search.trace;
-        Some((Self { mixture, alternatives }, trace))
+        trace.append(&mut search.trace);
+        Some(Self { mixture, lights, alternatives })
     }
 
     /// Converts to an estimate, with the errors of another mixture, `off`; `data` are those of any

@@ -8,8 +8,8 @@ use nalgebra::DVector;
 
 use super::family::Family;
 use super::gaussian::logistic;
-use super::linear::{Linear, Start, candidates};
-use super::most_evidence::{APART, of_most_evidence};
+use super::linear::{Linear, Start, candidates, worth_a_search};
+use super::mixture::APART;
 use super::prior::{Class, Prior};
 use crate::solve::Termination;
 use crate::solve::posterior::{Iteration, Limits, Model, find_mode, first_tempering};
@@ -92,7 +92,7 @@ pub fn between_means<F: Family>(
             Linear::laplace(&model, (&start.w, &model.linearise(&start.w)), fine, (hypothesis, 0.0))?;
         let is_telling = linear.is_telling(&start.gaussian);
         let candidates = candidates(family, vec![linear], prior);
-        let ranked = of_most_evidence(&candidates, |one| one.ln_evidence, is_telling);
+        let ranked = worth_a_search(&candidates, is_telling);
         Some(ranked.iter().filter_map(|one| one.start(family, prior)).collect::<Vec<_>>())
     };
     let mut found = distinct(places.into_iter().take(PLACES).filter_map(classes).flatten().collect());

@@ -45,7 +45,7 @@ pub fn estimate(data: &FacetData, smoothness: f64, start: &[f64]) -> Result<Esti
     let reflectance: Vec<f64> = state.get_best_param().map(|r| r.as_slice().to_vec()).unwrap_or_default();
     let at = data.residuals(&reflectance, &[]);
     let left = (data.rms(&at.residuals), data.unexplained(&at.residuals));
-    Ok(Estimate::of(reflectance, at.predicted.exposure, left, ended(state, run.solver())))
+    Ok(Estimate::of(reflectance, at.ingredients.exposure, left, ended(state, run.solver())))
 }
 
 /// The estimate with the largest smoothness whose residuals do not exceed the noise, with standard deviation

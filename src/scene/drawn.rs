@@ -93,7 +93,7 @@ impl SurfaceSetting<'_> {
     pub fn facet_light(&self, row_sums: Vec<f64>) -> Result<FacetLight> {
         let responses = self.scene.responses()?;
         let direct = |facet| responses.iter().map(|response| response.irradiance(facet, 0.0)).sum();
-        let panels: Vec<(usize, Panel)> = self.shape()?.panels().into_iter().collect();
+        let panels: Vec<(usize, Panel)> = self.scene.shape()?.panels().into_iter().collect();
         Ok(FacetLight { panels, irradiance: (0..row_sums.len()).map(direct).collect(), row_sums })
     }
 }

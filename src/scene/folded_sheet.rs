@@ -6,7 +6,7 @@ use ndarray::{Array2, Axis};
 use super::FoldSetting;
 use crate::camera::CameraResponse;
 use crate::error::{Error, Result};
-use crate::estimate::photograph::chebyshev::{NODES, nodes};
+use crate::estimate::photograph::chebyshev::nodes;
 use crate::geometry::{FacetGrid, Fold, Light, Spacing};
 use crate::kernel::quadrature::Lagrange;
 use crate::sheet::Shape;
@@ -46,7 +46,7 @@ impl FoldSetting {
 
 impl FoldedSheet {
     fn new(fold: &Fold, light: &Light, camera: CameraResponse, shape: Shape, eye: Vector3<f64>) -> Self {
-        let nodes = nodes(NODES);
+        let nodes = nodes();
         let all =
             departures(fold, &light.towards(), &Point3::from(eye), std::slice::from_ref(&shape), &nodes);
         let beyond = all.index_axis(Axis(0), 0).to_owned();

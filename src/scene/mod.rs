@@ -55,7 +55,7 @@ impl<'a> Setting<'a> {
     pub fn of(scene: &'a Scene) -> Result<Self> {
         Ok(match scene.fold_if_one()?.filter(|_| !scene.has_sources()) {
             Some(fold) => Self::Fold(Box::new(FoldSetting::with_fold(scene, fold)?)),
-            None => Self::Surface(SurfaceSetting::of(scene)),
+            None => Self::Surface(SurfaceSetting { scene }),
         })
     }
 
@@ -66,7 +66,7 @@ impl<'a> Setting<'a> {
     pub fn facets(&self) -> Result<usize> {
         match self {
             Self::Fold(fold) => Ok(2 * fold.fold.facets().len()),
-            Self::Surface(surface) => surface.facets(),
+            Self::Surface(surface) => surface.scene.facet_count(),
         }
     }
 
@@ -77,7 +77,7 @@ impl<'a> Setting<'a> {
     pub fn panels(&self) -> Result<BTreeMap<usize, Panel>> {
         match self {
             Self::Fold(fold) => Ok(fold.fold.panels().into_iter().enumerate().collect()),
-            Self::Surface(surface) => Ok(surface.shape()?.panels()),
+            Self::Surface(surface) => Ok(surface.scene.shape()?.panels()),
         }
     }
 

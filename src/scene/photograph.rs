@@ -19,7 +19,7 @@ use ndarray::Array2;
 use super::{FoldSetting, StatedSky, metered};
 use crate::error::Result;
 use crate::estimate::measured::{Measured, check_shape};
-use crate::estimate::photograph::chebyshev::{NODES, nodes};
+use crate::estimate::photograph::chebyshev::nodes;
 use crate::estimate::photograph::conditions::Daylight;
 use crate::estimate::photograph::parts::{Change, Parts, Radiance, Sunlit, Surroundings};
 use crate::estimate::photograph::priors::Priors;
@@ -83,7 +83,7 @@ impl<'a> PhotographedFold<'a> {
     /// From a scene.
     #[must_use]
     pub fn of(setting: &'a FoldSetting) -> Self {
-        Self { setting, nodes: nodes(NODES), priors: &Priors::USUAL, left_out: None }
+        Self { setting, nodes: nodes(), priors: &Priors::USUAL, left_out: None }
     }
 
     /// The same with one of the [measured sheets](crate::sheet::measured_names) treated as unknown, to test

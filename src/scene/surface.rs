@@ -11,36 +11,11 @@ use crate::surfaces::kernel::lit::LitSurface;
 
 /// A surface that is not a fold, or a fold under other sources, before a camera.
 pub struct SurfaceSetting<'a> {
-    pub(super) scene: &'a Scene,
+    /// Its record.
+    pub scene: &'a Scene,
 }
 
-impl<'a> SurfaceSetting<'a> {
-    /// From a scene's record.
-    #[must_use]
-    pub fn of(scene: &'a Scene) -> Self {
-        Self { scene }
-    }
-
-    pub(super) fn facets(&self) -> Result<usize> {
-        self.scene.facet_count()
-    }
-
-    /// The surface in space.
-    ///
-    /// # Errors
-    /// As [`Scene::shape`].
-    pub fn shape(&self) -> Result<Shape> {
-        self.scene.shape()
-    }
-
-    /// The sources around it.
-    ///
-    /// # Errors
-    /// As [`Scene::sources`].
-    pub fn sources(&self) -> Result<Vec<LightSource>> {
-        self.scene.sources()
-    }
-
+impl SurfaceSetting<'_> {
     /// The camera's responses to the sources. If there are several illuminants, each belongs to a source,
     /// skies aside, or, with a single source, to a picture.
     ///
@@ -48,7 +23,7 @@ impl<'a> SurfaceSetting<'a> {
     /// [`Error::Field`] if camera or illuminants are missing or not on the scene's wavelengths, or if there
     /// are several illuminants but not one per source.
     pub fn source_responses(&self) -> Result<Vec<CameraResponse>> {
-        let sources = self.sources()?;
+        let sources = self.scene.sources()?;
         let responses = self.lamp_responses(&sources)?;
         let sky = sky_response(&self.scene.optics()?, &responses[0])?;
         self.of_sources(&responses, &sky)
@@ -59,7 +34,7 @@ impl<'a> SurfaceSetting<'a> {
     pub(super) fn of_sources<T: Clone>(&self, lamps: &[T], sky: &T) -> Result<Vec<T>> {
         let mut of_lamps = lamps.iter().cycle();
         let of = |source: &LightSource| if source.is_sky() { Some(sky) } else { of_lamps.next() };
-        Ok(self.sources()?.iter().filter_map(of).cloned().collect())
+        Ok(self.scene.sources()?.iter().filter_map(of).cloned().collect())
     }
 
     /// One response for all sources, or one for each that is not a sky.
@@ -88,11 +63,11 @@ impl<'a> SurfaceSetting<'a> {
 
     pub(super) fn open_light(&self) -> Result<OpenLight> {
         let responses = self.source_responses()?;
-        Ok(OpenLight::new(&self.sources()?.into_iter().zip(responses).collect::<Vec<_>>()))
+        Ok(OpenLight::new(&self.scene.sources()?.into_iter().zip(responses).collect::<Vec<_>>()))
     }
 
     pub(super) fn pictures(&self) -> Result<usize> {
-        Ok(if lamps(&self.sources()?) > 1 { 1 } else { self.scene.illuminants()?.len() })
+        Ok(if lamps(&self.scene.sources()?) > 1 { 1 } else { self.scene.illuminants()?.len() })
     }
 
     pub(super) fn model(&self) -> Result<FacetModel> {
@@ -104,7 +79,7 @@ impl<'a> SurfaceSetting<'a> {
     /// # Errors
     /// As [`Setting::model`](super::Setting::model).
     pub fn model_seen_by(&self, eye: &CameraResponse) -> Result<FacetModel> {
-        self.model_of(&vec![eye.clone(); self.sources()?.len()])
+        self.model_of(&vec![eye.clone(); self.scene.sources()?.len()])
     }
 
     /// The model for these responses to the sources.
@@ -118,7 +93,7 @@ impl<'a> SurfaceSetting<'a> {
             let lights: Vec<_> = self.scene.responses()?.into_iter().zip(cameras.iter().cloned()).collect();
             return Ok(FacetModel::of_surface(&lights));
         }
-        let part_of_facet = part_of_facets(&self.shape()?, &materials)?;
+        let part_of_facet = part_of_facets(&self.scene.shape()?, &materials)?;
         let exchange = self.lit()?.reduce(&part_of_facet, self.scene.tolerance()?)?;
         let known = materials.into_iter().map(|material| Some(material.reflectance));
         let parts: Vec<_> = std::iter::once(None).chain(known).collect();
@@ -131,7 +106,7 @@ impl<'a> SurfaceSetting<'a> {
     /// As [`Scene::shape`] and [`Scene::sources`].
     pub fn lit(&self) -> Result<LitSurface> {
         let (unknowns, tolerance) = (self.scene.unknowns()?, self.scene.tolerance()?);
-        LitSurface::again(&self.shape()?, &self.sources()?, unknowns, tolerance)
+        LitSurface::again(&self.scene.shape()?, &self.scene.sources()?, unknowns, tolerance)
     }
 }
 

@@ -28,17 +28,12 @@ impl<'a> ScoreTest<'a> {
     }
 
     /// Logarithm of the factor by which the mode becomes more probable if the model may also move along
-    /// `change`, by any positive amount: 0 if the data favour the opposite direction.
-    #[must_use]
-    pub fn ln_gain_along(&self, change: &DVector<f64>) -> f64 {
-        let slope = self.slope(change);
-        if slope <= 0.0 { 0.0 } else { ln_gain(slope, self.bend(change), 0.0) }
-    }
-
-    /// The same for moves of at least `least` times the change, which the data may oppose.
+    /// `change`, by at least `least` times it: the data may oppose that.
     #[must_use]
     pub fn ln_gain_by(&self, least: f64, change: &DVector<f64>) -> f64 {
-        ln_gain(self.slope(change), self.bend(change), least)
+        let (slope, bend) = (self.slope(change), self.bend(change));
+        let times = if bend > 0.0 { (slope / bend).max(least) } else { least };
+        times * (slope - 0.5 * times * bend)
     }
 
     /// Logarithm of the factor by which the data become more probable if the model makes one of these
@@ -59,12 +54,6 @@ impl<'a> ScoreTest<'a> {
         let by_unknowns = self.weight * dot_products(self.jacobian, change);
         self.weight * change.norm_squared() - by_unknowns.dot(&self.information.solve(&by_unknowns))
     }
-}
-
-/// Gain of the best move of at least `least` times a change.
-fn ln_gain(slope: f64, bend: f64, least: f64) -> f64 {
-    let times = if bend > 0.0 { (slope / bend).max(least) } else { least };
-    times * (slope - 0.5 * times * bend)
 }
 
 /// Twice the minimum of the objective, predicted from the model linearised about `w`; `None` if the model is
@@ -100,10 +89,6 @@ mod tests {
             let jacobian = DMatrix::from_column_slice(2, 1, &[2.0, 1.0]);
             Linearised::new(at.residuals, jacobian, ())
         }
-
-        fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
-            None
-        }
     }
 
     #[test]
@@ -111,11 +96,11 @@ mod tests {
         let found = find_mode(&Line, DVector::zeros(1), (1.0, 1.0), 1e-9, 100);
         let change = DVector::from_vec(vec![1.0, 0.0]);
         let test = ScoreTest::at(&found, 1.0).unwrap();
-        let gain = test.ln_gain_along(&change);
+        let gain = test.ln_gain_by(0.0, &change);
         // with the first datum free only the second is left: ½(1 − w)² + ½w² is least at w = ½
         let before = 0.5 * found.cost(1.0);
         assert!((gain - (before - 0.25)).abs() < 1e-12, "{gain}");
-        assert!(test.ln_gain_along(&-&change).abs() < f64::MIN_POSITIVE);
+        assert!(test.ln_gain_by(0.0, &-&change).abs() < f64::MIN_POSITIVE);
         assert!((test.ln_gain_by(0.1, &change) - gain).abs() < 1e-12);
         assert!(test.ln_gain_by(1.0, &-&change) < 0.0);
         // with the change, (2 − 2w, 1 − w) is left: ½(5(1 − w)² + w²) is least at w = 5/6

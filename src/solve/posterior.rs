@@ -72,8 +72,11 @@ pub trait Model {
     fn linearise(&self, w: &DVector<f64>) -> Linearised<Self::Second> {
         self.derivatives(w, self.evaluate(w))
     }
-    /// `Σ λᵢ∇²mᵢ` at a point, with one multiplier λ per residual; `None` if it is omitted.
-    fn curvature(&self, at: &Self::Second, multipliers: &DVector<f64>) -> Option<DMatrix<f64>>;
+    /// `Σ λᵢ∇²mᵢ` at a point, with one multiplier λ per residual; `None` if it is omitted, as where priors
+    /// bound the unknowns and noise does not act as a constraint.
+    fn curvature(&self, _at: &Self::Second, _multipliers: &DVector<f64>) -> Option<DMatrix<f64>> {
+        None
+    }
 }
 
 /// A model at a point.

@@ -6,11 +6,9 @@ use vfold::estimate::measured::Measured;
 use vfold::estimate::photograph::day::Day;
 use vfold::estimate::photograph::error::ModelError;
 use vfold::estimate::photograph::eye::Eye;
-use vfold::estimate::photograph::hypotheses::{
-    Hypothesis, Mistake, hypotheses_without_bounces, usual_hypotheses,
-};
+use vfold::estimate::photograph::hypotheses::{Hypothesis, Mistake, hypotheses_without_bounces};
 use vfold::estimate::photograph::model::PhotographModel;
-use vfold::estimate::photograph::sheet_models::SheetModels;
+use vfold::estimate::photograph::sheet_models::{SheetModel, SheetModels};
 use vfold::estimate::photograph::{Parts, StatedScene};
 use vfold::estimate::prior::Prior;
 use vfold::scene::{FoldSetting, PhotographedFold, Picture};
@@ -50,11 +48,13 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
         .unwrap();
     let ideal =
         [None, Some(Mistake::Angle), Some(Mistake::Exposure), Some(Mistake::Sky)].map(Hypothesis::ideal);
-    let all = usual_hypotheses().into_iter().chain(ideal).chain(hypotheses_without_bounces());
+    let all =
+        SheetModel::ALL.map(Hypothesis::usual).into_iter().chain(ideal).chain(hypotheses_without_bounces());
     // a sheet that emits nothing, then a thin one and a brightened one
     let emissions = Emission::all(wavelengths_nm, parts[0].eye.sun.as_slice(), Backing::Unknown);
-    let emitting =
-        emissions[1..3].iter().flat_map(|one| usual_hypotheses().into_iter().map(move |of| (of, Some(one))));
+    let emitting = emissions[1..3]
+        .iter()
+        .flat_map(|one| SheetModel::ALL.map(Hypothesis::usual).into_iter().map(move |of| (of, Some(one))));
     for (hypothesis, emission) in all.map(|one| (one, None)).chain(emitting) {
         let of = (hypothesis, emission);
         let model = PhotographModel::new(&parts[0], &kinds, of, prior.broad(), &whitening);
@@ -70,8 +70,7 @@ fn check_derivatives(parts: Parts, wavelengths_nm: &[f64]) {
                 model.residuals(&beside)
             });
             let expected = (before - after) / (2.0 * step);
-            let name =
-                n.checked_sub(scene).and_then(|n| model.scene_unknowns().get(n)).map(|one| one.unknown);
+            let name = n.checked_sub(scene).and_then(|n| model.numbers.get(n)).map(|one| one.unknown);
             let off = (jacobian.column(n) - &expected).norm();
             assert!(
                 off < 2e-3 * (1.0 + expected.norm()),

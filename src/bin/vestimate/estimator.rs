@@ -31,7 +31,7 @@ use super::asked::Asked;
 use super::context::{Context, SceneMethod, fold_of};
 use super::known_fold::KnownFold;
 use super::latest::Latest;
-use super::messages::{self, Deviations};
+use super::messages;
 use super::method::Method;
 use super::settings::Smoothness;
 
@@ -134,13 +134,13 @@ impl Transform for Estimator<'_> {
         let (estimate, verdict, how) = match &context.method {
             SceneMethod::Map(prior) => {
                 let Context { inference, fold, .. } = context;
-                let deviations = Deviations::of(&noise, inference.model.facets(), &rgb)?;
+                let sd = noise.deviations(inference.model.facets(), &rgb)?;
                 let is_photograph = sample.is_photograph();
                 let (rgb, shadows) = match fold {
-                    Some(fold) if is_photograph => fold.out_of_shadows(&rgb, &deviations.sd),
+                    Some(fold) if is_photograph => fold.out_of_shadows(&rgb, &sd),
                     _ => (rgb, Vec::new()),
                 };
-                let measured = &Measured { rgb: &rgb, sd: &deviations.sd };
+                let measured = &Measured { rgb: &rgb, sd: &sd };
                 let data = inference.data(measured, exposure, is_photograph)?;
                 let photograph = || photographed(fold.as_deref(), sample, (measured, shadows), exposure);
                 let photograph = is_photograph.then(photograph).transpose()?;
@@ -152,8 +152,8 @@ impl Transform for Estimator<'_> {
                 let Measurement { estimate, verdict, unmodelled, .. } =
                     inference.measure(&facets, &data, prior)?;
                 unmodelled.iter().for_each(|why| self.say_unmodelled(sample, &estimate, *why));
-                let how =
-                    format!("prior {}, {deviations}, {}", self.asked.args.prior(), messages::size(&data));
+                let (prior, known_to) = (self.asked.args.prior(), messages::known_to(&noise, &sd));
+                let how = format!("prior {prior}, {known_to}, {}", messages::size(&data));
                 (estimate, Some(verdict), how)
             }
             SceneMethod::Smooth(smoothness) => {
@@ -295,7 +295,8 @@ impl<'a> Estimator<'a> {
             cli::say("vestimate", &format!("{id}: {how}; {}", messages::outcome(estimate, exposure)));
         }
         // methods that do not weight facets know their noise nevertheless
-        let rms = || Ok(Deviations::of(noise, context.inference.model.facets(), &sample.facet_rgb()?)?.rms());
+        let sd = || noise.deviations(context.inference.model.facets(), &sample.facet_rgb()?);
+        let rms = || Ok(messages::rms(&sd()?));
         refuse_unexplained(estimate, || verdict.map_or_else(rms, |_| Ok(1.0)))?;
         let (method, prior) = match &context.method {
             SceneMethod::Flat(flat) => (flat.name(), flat.basis()),
@@ -359,10 +360,10 @@ impl<'a> Estimator<'a> {
         let (estimate, weight) = match smoothness {
             Smoothness::Weight(weight) => (smooth::estimate(&data, weight, start)?, format!("{weight:e}")),
             Smoothness::Auto => {
-                let noise = Deviations::of(noise, model.facets(), rgb)?;
+                let sd = noise.deviations(model.facets(), rgb)?;
                 (
-                    smooth::estimate_by_discrepancy(&data, noise.rms(), start)?,
-                    format!("as allowed by {noise}"),
+                    smooth::estimate_by_discrepancy(&data, messages::rms(&sd), start)?,
+                    format!("as allowed by {}", messages::known_to(noise, &sd)),
                 )
             }
         };

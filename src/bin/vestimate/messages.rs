@@ -1,51 +1,30 @@
 //! Messages of `-v` on a sample: decisions and results.
 
-use std::fmt;
-
-use vfold::Result;
 use vfold::error::counted;
 use vfold::estimate::data::FacetData;
 use vfold::estimate::noise::{Noise, NoiseSource};
 use vfold::estimate::{Estimate, Exposure};
-use vfold::forward::{FacetModel, FacetValues};
+use vfold::forward::FacetValues;
 use vfold::solve::Termination;
 
-/// Standard deviations of facets, and their origin.
-pub struct Deviations {
-    /// Relative to white.
-    pub sd: FacetValues,
-    /// The part due to the model, relative to the facet's value.
-    model_error: f64,
-    /// The origin of the noise part.
-    noise_from: &'static str,
+/// How well facets with these standard deviations are known, and how that is known.
+pub fn known_to(noise: &Noise, sd: &FacetValues) -> String {
+    let noise_from = match noise.source {
+        NoiseSource::Stated(_) => "--noise-sd",
+        NoiseSource::OfFacets(_) => "facet_sd",
+        NoiseSource::Unexplained => "what no reflectance explains",
+    };
+    let model = match noise.model_error {
+        error if error > 0.0 => format!(", model {error:.1e} of the value"),
+        _ => String::new(),
+    };
+    format!("facets known to {:.1e} (noise from {noise_from}{model})", rms(sd))
 }
 
-impl Deviations {
-    /// For facets `rgb`, from their noise.
-    pub fn of(noise: &Noise, model: &FacetModel, rgb: &FacetValues) -> Result<Self> {
-        let noise_from = match noise.source {
-            NoiseSource::Stated(_) => "--noise-sd",
-            NoiseSource::OfFacets(_) => "facet_sd",
-            NoiseSource::Unexplained => "what no reflectance explains",
-        };
-        Ok(Self { sd: noise.deviations(model, rgb)?, model_error: noise.model_error, noise_from })
-    }
-
-    /// Root mean square.
-    pub fn rms(&self) -> f64 {
-        let values: Vec<f64> = self.sd.measured().collect();
-        (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
-    }
-}
-
-impl fmt::Display for Deviations {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "facets known to {:.1e} (noise from {}", self.rms(), self.noise_from)?;
-        if self.model_error > 0.0 {
-            write!(f, ", model {:.1e} of the value", self.model_error)?;
-        }
-        f.write_str(")")
-    }
+/// Root mean square of the facets' values.
+pub fn rms(facets: &FacetValues) -> f64 {
+    let values: Vec<f64> = facets.measured().collect();
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
 /// The numbers of facet values before and after compression.

@@ -206,7 +206,7 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let (id, panels, facet_count) = (scene.id()?, setting.panels()?, setting.facets()?);
     let sight = match &setting {
         Setting::Fold(_) => None,
-        Setting::Surface(surface) => Some(Sight::new(&surface.shape()?)),
+        Setting::Surface(surface) => Some(Sight::new(&surface.scene.shape()?)),
     };
     let setup = Setup {
         args,

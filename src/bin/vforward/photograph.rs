@@ -71,8 +71,8 @@ impl Setup<'_> {
         sheet: &Sheet,
     ) -> Result<(Picture, Vec<(usize, Corners)>)> {
         let eye = self.eye()?;
-        let (render, sources) = (&self.args.render, surface.sources()?);
-        let view = ShapeView::new(&surface.shape()?, &sources, &render.viewpoint(), render.frame()?)?;
+        let (render, sources) = (&self.args.render, surface.scene.sources()?);
+        let view = ShapeView::new(&surface.scene.shape()?, &sources, &render.viewpoint(), render.frame()?)?;
         let light = if for_screen {
             let model = surface.model_seen_by(&eye)?;
             self.light(&model, sheet)?

@@ -93,7 +93,7 @@ pub fn write(args: &Args, out: &mut Output) -> Result<()> {
     scene.set_accuracy(&mesh.to_string(), tolerance, &solved.accuracy)?;
     skipped.iter().try_for_each(|skip| scene.set_skipped(skip.what, skip.count, skip.why))?;
     if let Some(path) = &args.plot {
-        draw(path, &SurfaceSetting::of(&scene).facet_light(solved.kernel.facet_row_sums())?)?;
+        draw(path, &SurfaceSetting { scene: &scene }.facet_light(solved.kernel.facet_row_sums())?)?;
     }
     if !args.common.no_history {
         scene.fields.add_history("vkernel")?;

@@ -9,14 +9,7 @@ use crate::estimate::emission::EXCITING_PLACE;
 use crate::estimate::emission::terms::{Made, made};
 use crate::estimate::unknowns::{Amounts, Normal};
 use crate::solve::dense::dot_products;
-
-/// Data minus model, in units of the noise.
-pub struct Residuals {
-    /// Data minus model.
-    pub residuals: DVector<f64>,
-    /// The model.
-    pub predicted: Predicted,
-}
+use crate::solve::posterior::Evaluated;
 
 /// The model of the data at a point.
 pub struct Predicted {
@@ -34,16 +27,14 @@ pub struct LinearisedFacets {
     pub residuals: DVector<f64>,
     /// Derivatives of the model.
     pub jacobian: DMatrix<f64>,
-    /// The exposure used.
+    /// The exposure.
     pub exposure: FittedExposure,
     /// Input of [`FacetData::curvature`].
     pub second: SecondDerivatives,
 }
 
-/// An exposure fitted to the facets.
+/// How an exposure that is fitted to the facets depends on all else.
 pub struct FittedExposure {
-    /// Value.
-    pub value: f64,
     /// Its derivatives by reflectances and unknowns, columns as in the Jacobian.
     pub slopes: DVector<f64>,
     /// Its standard deviation if all else is known.
@@ -76,7 +67,7 @@ impl FacetData<'_> {
     /// # Source
     /// Deeb et al., first term of eq. (36).
     #[must_use]
-    pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Residuals {
+    pub fn residuals(&self, reflectance: &[f64], unknowns: &[f64]) -> Evaluated<Predicted> {
         let mut terms = self.scene.facets().terms_of(reflectance);
         if let Some((emission, w)) = self.emits(unknowns) {
             let poles = self.signed_poles();
@@ -90,7 +81,7 @@ impl FacetData<'_> {
         let values = &parts * &now;
         let exposure = self.exposure_of(&values, || self.sum_of(&terms, &now).sum());
         let residuals = self.left_over(exposure, &values);
-        Residuals { residuals, predicted: Predicted { exposure, amounts, parts } }
+        Evaluated { residuals, ingredients: Predicted { exposure, amounts, parts } }
     }
 
     /// Residuals at a point, with the derivatives of the model.
@@ -105,14 +96,19 @@ impl FacetData<'_> {
     /// For an unknown exposure: Kaufman's approximation to the derivatives of variable projection (*BIT* 15,
     /// 1975, p. 49). The prior on its logarithm is one more datum, which depends on nothing but the exposure.
     #[must_use]
-    pub fn derivatives(&self, reflectance: &[f64], unknowns: &[f64], at: Residuals) -> LinearisedFacets {
+    pub fn derivatives(
+        &self,
+        reflectance: &[f64],
+        unknowns: &[f64],
+        at: Evaluated<Predicted>,
+    ) -> LinearisedFacets {
         let [terms, mut slopes, mut curvatures] = self.scene.facets().derivatives_of(reflectance);
         let emitted = self.emitted(reflectance, unknowns, [&terms, &slopes, &curvatures]);
         if let Some(Emitted { sent, made, .. }) = &emitted {
             slopes += scaled_rows(&made.slopes, sent.fraction.as_slice());
             curvatures += scaled_rows(&made.curvatures, sent.fraction.as_slice());
         }
-        let Residuals { residuals, predicted } = at;
+        let Evaluated { residuals, ingredients: predicted } = at;
         let Predicted { exposure, amounts, parts } = &predicted;
         let (now, by_unknown) = (amounts.values(), amounts.slopes());
         let exposed = *exposure * &now;
@@ -150,7 +146,7 @@ impl FacetData<'_> {
         LinearisedFacets {
             residuals,
             jacobian,
-            exposure: FittedExposure { value: *exposure, slopes: -*exposure * relative, sd },
+            exposure: FittedExposure { slopes: -*exposure * relative, sd },
             second: SecondDerivatives { predicted, slopes, curvatures, emitted },
         }
     }

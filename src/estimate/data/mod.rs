@@ -9,7 +9,7 @@ mod emitting;
 
 use std::borrow::Cow;
 
-pub use derivatives::{Curvature, FittedExposure, LinearisedFacets, Predicted, Residuals, SecondDerivatives};
+pub use derivatives::{Curvature, FittedExposure, LinearisedFacets, Predicted, SecondDerivatives};
 use nalgebra::{DVector, DVectorView};
 
 use super::channels::Channels;
@@ -29,12 +29,15 @@ use crate::estimate::unknowns::{Normal, SceneModel};
 pub struct FacetData<'a> {
     scene: Cow<'a, SceneModel>,
     exposure: Exposure,
+    /// The compressed data, in units of their noise, and the model of each channel that predicts them.
     values: DVector<f64>,
     channels: Channels,
-    /// Sum of squares that no reflectance explains, and the number of facet values.
+    /// Sum of squares that no reflectance explains.
     outside: f64,
+    /// Number of facet values.
     count: usize,
-    peak: f64,
+    /// The brightest facet value in units of its noise.
+    pub(super) peak: f64,
     sums: SumRule,
     /// Possible emission of the sheet; `None` if it is not considered.
     emission: Option<Emission>,
@@ -161,22 +164,16 @@ impl<'a> FacetData<'a> {
         Self { scene: Cow::Owned(scene), channels, values, sums, emission, ..*self }
     }
 
-    /// The same data with a prior on the logarithm of the exposure, if it was entirely unknown.
+    /// The same data with this prior, if any, on the logarithm of an exposure that was entirely unknown.
     #[must_use]
-    pub fn expecting(self, exposure: Normal) -> Self {
-        Self { exposure: self.exposure.or_expected(Some(exposure)), ..self }
+    pub fn expecting(self, exposure: Option<Normal>) -> Self {
+        Self { exposure: self.exposure.or_expected(exposure), ..self }
     }
 
     /// True if the exposure is fitted to the facets.
     #[must_use]
     pub fn fits_exposure(&self) -> bool {
         matches!(self.exposure, Exposure::Free | Exposure::Expected(_))
-    }
-
-    /// The largest datum in units of its noise.
-    #[must_use]
-    pub fn peak(&self) -> f64 {
-        self.peak
     }
 
     fn exposure_of(&self, values: &DVector<f64>, sum: impl Fn() -> f64) -> f64 {

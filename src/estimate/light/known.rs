@@ -34,6 +34,7 @@ const SD: f64 = 0.01;
 /// A mode counts as found within this many standard deviations; a search ends after this many iterations.
 const TOLERANCE: f64 = 1e-3;
 const LIMIT: usize = 500;
+
 /// A sheet whose reflectance is known as well as an instrument repeats.
 #[derive(Clone, Debug)]
 pub struct KnownSheet {

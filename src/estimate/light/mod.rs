@@ -102,11 +102,7 @@ impl Candidate {
 impl Candidate {
     /// Facets in this light.
     pub(super) fn on<'a>(&self, data: &FacetData<'a>) -> FacetData<'a> {
-        let lit = data.in_light(&self.camera);
-        match self.exposure {
-            Some(exposure) => lit.expecting(exposure),
-            None => lit,
-        }
+        data.in_light(&self.camera).expecting(self.exposure)
     }
 
     pub(super) fn weighed(&self, probability: f64) -> Weighed {

@@ -23,6 +23,7 @@ use crate::estimate::prior::Prior;
 /// time than four estimates.
 const LN_EVIDENCE_LEAST: f64 = -6.0;
 const TRIED: usize = 2;
+
 /// The posterior mean reflectance, and the light, for a photograph in one of `lights`; its `parts` are those
 /// in unstated daylight.
 ///

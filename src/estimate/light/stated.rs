@@ -17,6 +17,7 @@ use crate::estimate::prior::Prior;
 use crate::estimate::rival::{LN_AHEAD, Rival};
 use crate::estimate::search::Search;
 use crate::estimate::searched::Lit;
+use crate::solve::forecast::{ScoreTest, foreseen_cost};
 use crate::spectrum::{WavelengthGrid, candidate_lights};
 
 /// A stated light is not questioned if facets, with the noise at which hypotheses are sorted, are no more
@@ -63,26 +64,29 @@ pub fn rival(
     prior: &Prior,
 ) -> Option<Rival> {
     let search = Search::new(data, prior);
-    if search.surprise(stated) < USUAL {
+    if stated.solution.surprise(search.tempering()) < USUAL {
         return None;
     }
     let facets = Facets { data, gaussian: prior.broad() };
     let (reflectance, (_, unknowns)) =
         (facets.reflectance_at(&stated.solution.w), facets.split(&stated.solution.w));
-    let score_test = search.score_test(stated)?;
+    let score_test = ScoreTest::at(&stated.solution, search.tempering())?;
     let least =
         fluorescing.iter().map(|one| one.sorted.ln_evidence).fold(stated.ln_evidence, f64::max) + LN_AHEAD;
     let ahead = |light: &Candidate| {
         let lit = data.in_light(&light.camera);
         let alike = seen_alike(&reflectance, &data.scene().facets().sources().first()?.camera, light);
-        let start = Facets { data: &lit, gaussian: prior.broad() }.set_out_from(&alike);
+        let facets = Facets { data: &lit, gaussian: prior.broad() };
+        let start = facets.set_out_from(&alike);
         let mut in_light = Search::new(&lit, prior);
+        let tempering = in_light.tempering();
+        let ln_gain =
+            || Some(0.5 * (stated.solution.cost(tempering) - foreseen_cost(&facets, &start, tempering)?));
         // the first test serves for lights far from the stated one, the second, from a reflectance that looks
         // alike, for near ones
         let change =
             &stated.solution.at.residuals - lit.residuals(&reflectance, unknowns.as_slice()).residuals;
-        let is_hopeful = score_test.ln_gain_along(&change) > LN_AHEAD
-            || in_light.ln_gain_from((), &start, stated)? > LN_AHEAD;
+        let is_hopeful = score_test.ln_gain_by(0.0, &change) > LN_AHEAD || ln_gain()? > LN_AHEAD;
         if !is_hopeful {
             return None;
         }

@@ -8,10 +8,10 @@
 use super::Candidate;
 use super::scenario::{Scenario, Starts, Tried, WITHOUT_SKY};
 use super::stated::{Others, coarse_to_fine};
-use crate::estimate::photograph::conditions::Daylight;
+use crate::estimate::family::Family;
 use crate::estimate::photograph::day::Day;
 use crate::estimate::photograph::hypotheses::Hypothesis;
-use crate::estimate::photograph::{Modes, Parts, Photographs};
+use crate::estimate::photograph::{Parts, Photographs, Weighed};
 use crate::estimate::prior::Prior;
 use crate::estimate::rival::{LN_AHEAD, Rival, ln_enough};
 use crate::estimate::search::Search;
@@ -22,11 +22,16 @@ use crate::estimate::search::Search;
 const LN_ODDS: f64 = 6.0;
 
 /// The light among `others`, if any, in which a photograph is much more probable than in the stated one,
-/// given the modes of its search.
-pub fn rival_in_photograph(parts: &Parts, modes: &Modes, others: &Others, prior: &Prior) -> Option<Rival> {
-    let Modes { photographs, day, ln_by_emission, .. } = modes;
+/// given its hypotheses as weighed.
+pub fn rival_in_photograph(
+    parts: &Parts,
+    weighed: &Weighed,
+    others: &Others,
+    prior: &Prior,
+) -> Option<Rival> {
+    let Weighed { photographs, day, of_family, ln_by_emission, .. } = weighed;
     let mut starts = Starts::default();
-    if let Some((_, mode)) = modes.of_day() {
+    if let Some((_, mode)) = of_family {
         starts.keep(mode);
     }
     let mut stated = of_light(parts.clone(), others);
@@ -36,8 +41,9 @@ pub fn rival_in_photograph(parts: &Parts, modes: &Modes, others: &Others, prior:
     }
     let best = under_sky.best(photographs, prior, (&mut starts, f64::NEG_INFINITY))?;
     let lamp = parts.clone().without_sky();
-    let (of_sky, hypothesis) = ((photographs, &best.solution.w), Hypothesis::of_family(Day::Clear));
-    starts.keep(&photographs.in_light_of(&lamp).carried(of_sky, hypothesis, prior)?);
+    let (under_lamp, hypothesis) = (photographs.in_light_of(&lamp), Hypothesis::of_family(Day::Clear));
+    let of_sky = photographs.model(hypothesis, prior.broad())?;
+    starts.keep(&under_lamp.model(hypothesis, prior.broad())?.carried(&of_sky, &best.solution.w));
     let ahead_by = ln_by_emission + LN_AHEAD;
     let mut least = best.ln_weight() + ahead_by;
     let mut if_ahead = |lit: Parts| {
@@ -49,7 +55,7 @@ pub fn rival_in_photograph(parts: &Parts, modes: &Modes, others: &Others, prior:
     let lamps = coarse_to_fine(&lamps, by_lamp, |(_, tried)| tried.ln_weight());
     let mut ahead: Vec<_> = lamps.into_iter().map(|(lamp, best)| (lamp.name.clone(), best)).collect();
     // daylight is like none of them
-    if !matches!(parts.stated.daylight, Some(Daylight::Cie { .. })) {
+    if !parts.stated.daylight.is_some_and(|stated| stated.is_cie) {
         ahead.extend(if_ahead(parts.in_any_daylight()).map(|best| ("daylight".to_owned(), best)));
     }
     if ahead.is_empty() {

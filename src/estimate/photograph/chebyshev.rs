@@ -1,5 +1,7 @@
 //! Functions of albedo, represented by their values at Chebyshev nodes.
 
+use std::sync::LazyLock;
+
 use nalgebra::DMatrix;
 
 /// Number of albedo nodes, sufficient for all bounces.
@@ -7,17 +9,28 @@ pub const NODES: usize = 10;
 
 /// Chebyshev nodes of the first kind on [0, 1].
 #[must_use]
-pub fn nodes(count: usize) -> Vec<f64> {
-    let angle = |n: usize| std::f64::consts::PI * (n as f64 + 0.5) / count as f64;
-    (0..count).map(|n| 0.5 * (1.0 - angle(n).cos())).collect()
+pub fn nodes() -> Vec<f64> {
+    let angle = |n: usize| std::f64::consts::PI * (n as f64 + 0.5) / NODES as f64;
+    (0..NODES).map(|n| 0.5 * (1.0 - angle(n).cos())).collect()
+}
+
+/// Weights of the values at the nodes in the value at each of `points`, and in its derivative: node by point.
+pub(super) fn weights(points: &[f64]) -> (DMatrix<f64>, DMatrix<f64>) {
+    /// Maps values at the nodes to Chebyshev coefficients.
+    static COEFFICIENTS: LazyLock<DMatrix<f64>> = LazyLock::new(|| {
+        let (at_nodes, _) = polynomials(&nodes());
+        at_nodes.try_inverse().unwrap_or_else(|| DMatrix::identity(NODES, NODES))
+    });
+    let (values, slopes) = polynomials(points);
+    (&*COEFFICIENTS * values, &*COEFFICIENTS * slopes)
 }
 
 /// Chebyshev polynomials on [0, 1] at `points`, and their derivatives: polynomial by point.
-pub(super) fn chebyshev(points: &[f64], count: usize) -> (DMatrix<f64>, DMatrix<f64>) {
-    let (mut values, mut slopes) = (DMatrix::zeros(count, points.len()), DMatrix::zeros(count, points.len()));
+fn polynomials(points: &[f64]) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (mut values, mut slopes) = (DMatrix::zeros(NODES, points.len()), DMatrix::zeros(NODES, points.len()));
     for (column, point) in points.iter().enumerate() {
         let x = 2.0 * point - 1.0;
-        for n in 0..count {
+        for n in 0..NODES {
             let (value, slope) = match n {
                 0 => (1.0, 0.0),
                 1 => (x, 2.0),

@@ -197,19 +197,13 @@ pub struct SkyKind {
     pub is_zenith_stated: bool,
 }
 
-/// Daylight with a reciprocal colour temperature, 1e-6/K.
+/// A light that is daylight.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Daylight {
-    /// CIE 15 daylight, which users state for any daylight.
-    Cie {
-        /// That of the stated illuminant.
-        mired: f64,
-    },
-    /// Measured or computed sunlight.
-    OfSun {
-        /// That of the nearest CIE daylight.
-        mired: f64,
-    },
+pub struct Daylight {
+    /// Reciprocal colour temperature of the nearest CIE 15 daylight, 1e-6/K.
+    pub mired: f64,
+    /// True for that daylight itself, which users state for any; else it is measured or computed sunlight.
+    pub is_cie: bool,
 }
 
 /// The reddest daylight of CIE 15, 4000 K, and one bluer than any sky, 1e-6/K.
@@ -237,11 +231,7 @@ impl Daylight {
         };
         let range = (BLUEST_SUN_MIRED as u32..=MOST_MIRED as u32).map(f64::from);
         let (off, mired) = range.map(|mired| (off(mired), mired)).min_by(|a, b| a.0.total_cmp(&b.0))?;
-        match off {
-            CIE..DAYLIGHT => Some(Self::OfSun { mired }),
-            ..CIE => Some(Self::Cie { mired }),
-            _ => None,
-        }
+        (off < DAYLIGHT).then_some(Self { mired, is_cie: off < CIE })
     }
 
     /// Relative power of daylight with a reciprocal colour temperature, from mean daylight and its two
@@ -253,13 +243,5 @@ impl Daylight {
     pub fn power(vectors: &DMatrix<f64>, mired: f64) -> DVector<f64> {
         let [m1, m2] = daylight_weights(1e6 / mired.clamp(LEAST_MIRED, MOST_MIRED));
         vectors * DVector::from_column_slice(&[1.0, m1, m2])
-    }
-
-    /// Its reciprocal colour temperature, 1e-6/K.
-    #[must_use]
-    pub fn mired(self) -> f64 {
-        match self {
-            Self::Cie { mired } | Self::OfSun { mired } => mired,
-        }
     }
 }

@@ -2,11 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::hypotheses::{Hypothesis, usual_hypotheses};
+use super::hypotheses::Hypothesis;
 use super::joint::{JointModel, Member};
 use super::model::Point;
 use super::parts::Parts;
 use super::priors::Priors;
+use super::sheet_models::SheetModel;
 use super::whitened::Photograph;
 use crate::estimate::Fitted;
 use crate::estimate::emission::{Fall, UNKNOWNS};
@@ -15,14 +16,12 @@ use crate::estimate::gaussian::Gaussian;
 use crate::estimate::mixture::LocalMode;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::Search;
-use crate::estimate::unknowns::EXPOSURE;
+use crate::estimate::unknowns::{EXPOSURE, SUPPORTED};
 use crate::solve::dense::rms;
 use crate::solve::posterior::{Evaluated, Linearised, Model};
 
 /// A mode counts as found within this many standard deviations.
 const TOLERANCE: f64 = 0.03;
-/// A number is determined by the facets if its standard deviation is below this share of the prior one.
-const SUPPORTED: f64 = 0.8;
 /// Step of difference quotients, in standard deviations.
 const STEP: f64 = 1e-3;
 
@@ -48,11 +47,11 @@ impl<'a> Photographs<'a> {
     /// ones, and the point of the prediction; `None` if the facets are not finite.
     pub fn of(parts: &'a [Parts], prior: &Prior) -> Option<(Self, DVector<f64>)> {
         let measured = Self(Photograph::all(parts));
-        let first = *usual_hypotheses().first()?;
+        let first = Hypothesis::usual(SheetModel::Matt);
         let found = Search::new(&measured, prior).sort((first, 0.0), None, f64::NEG_INFINITY)?;
         let model = measured.model(first, prior.broad())?;
         let w = found.solution.w;
-        let predicted = model.members().iter().map(|member| member.model.values_at(&member.own(&w)));
+        let predicted = model.members.iter().map(|member| member.model.values_at(&member.own(&w)));
         let predicted: Vec<_> = predicted.collect();
         drop(model);
         // a model that is far off predicts nothing
@@ -73,23 +72,6 @@ impl<'a> Photographs<'a> {
         self.model(hypothesis, prior.broad()).map(|model| model.unknowns())
     }
 
-    /// The residuals at a point under a hypothesis; `None` if the model is not finite.
-    pub fn residuals(&self, hypothesis: Hypothesis, w: &DVector<f64>, prior: &Prior) -> Option<DVector<f64>> {
-        self.model(hypothesis, prior.broad()).map(|model| model.residuals(w))
-    }
-
-    /// Transfers the point `w` of `other` photographs under a hypothesis to these; `None` if a model is not
-    /// finite.
-    pub fn carried(
-        &self,
-        (other, w): (&Photographs, &DVector<f64>),
-        hypothesis: Hypothesis,
-        prior: &Prior,
-    ) -> Option<DVector<f64>> {
-        let [here, there] = [self, other].map(|one| one.model(hypothesis, prior.broad()));
-        Some(here?.carried(&there?, w))
-    }
-
     /// The priors in use.
     pub fn priors(&self) -> &'static Priors {
         self.0.first().map_or(&Priors::USUAL, |photograph| photograph.parts.stated.priors)
@@ -104,24 +86,25 @@ impl<'a> Photographs<'a> {
         let of = |(member, residuals): (&Member, DVector<f64>)| {
             let w = member.own(&start.w);
             let exposure = member.model.point(&w).exposure;
+            let measured = &member.model.parts.values;
             let [scene, ..] = member.model.layout();
-            let numbers = member.model.scene_unknowns().iter().zip(scene..);
-            let fitted = numbers.filter(|(number, _)| number.matters()).map(|(number, n)| {
+            let numbers = member.model.numbers.iter().zip(scene..);
+            let fitted = numbers.filter(|(number, _)| number.matters).map(|(number, n)| {
                 let (value, slope) = number.at(w[n]);
                 let value = if number.unknown == &EXPOSURE { exposure } else { value };
-                let sd = widened * own.column(member.place(n)).norm();
+                let sd = widened * own.column(member.places[n]).norm();
                 Fitted { unknown: number.unknown, value, sd: sd * slope.abs(), supported: sd < SUPPORTED }
             });
             Seen {
                 exposure,
                 fitted: fitted.collect(),
                 residuals,
-                unexplained: member.model.left_over(&w).norm()
-                    / member.model.values().norm().max(f64::MIN_POSITIVE),
+                unexplained: (measured - member.model.values_at(&w)).norm()
+                    / measured.norm().max(f64::MIN_POSITIVE),
                 shifts: member.model.shifts(),
             }
         };
-        Some(model.members().iter().zip(model.each(&at.residuals)).map(of).collect())
+        Some(model.members.iter().zip(model.each(&at.residuals)).map(of).collect())
     }
 }
 
@@ -164,7 +147,7 @@ impl<'a> Family for Photographs<'a> {
 
 impl SpectrumModel for JointModel<'_> {
     fn gaussian(&self) -> &Gaussian {
-        self.first().model.gaussian()
+        self.first().model.gaussian
     }
 
     fn by_logit(&self, at: &Linearised<()>) -> DMatrix<f64> {
@@ -207,7 +190,7 @@ impl SpectrumModel for JointModel<'_> {
     }
 
     fn ln_whitening(&self) -> f64 {
-        self.members().iter().map(|member| member.model.whitening().ln_determinant()).sum()
+        self.members.iter().map(|member| member.model.whitening.ln_determinant()).sum()
     }
 }
 
@@ -225,8 +208,8 @@ impl JointModel<'_> {
     /// about camera and light as additional numbers: an ideal fold is estimated as if the statements were
     /// exact, but its uncertainty is not reduced.
     fn information(&self, w: &DVector<f64>, at: &Linearised<()>) -> Option<DMatrix<f64>> {
-        // ideal folds are not joined
-        let stated = match self.members() {
+        // joined photographs are usual ones, or show no fold
+        let stated = match self.members.as_slice() {
             [Member { model, .. }] => model.by_nominal(w),
             _ => None,
         };
@@ -240,21 +223,21 @@ impl JointModel<'_> {
 /// numbers of the `first`.
 fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> DMatrix<f64> {
     let [scene, sheet, camera, emission, _] = first.model.layout();
-    let basis = first.model.gaussian().basis();
+    let basis = first.model.gaussian.basis();
     let bands = point.albedo.len();
     let mut slopes = DMatrix::zeros(3 * bands, unknowns);
     if let Some((_, by_number)) = first.model.fraction_sent(w) {
         let mut sent = slopes.rows_mut(2 * bands, bands);
         for (n, column) in by_number.columns(0, UNKNOWNS).column_iter().enumerate() {
-            sent.set_column(first.place(emission + n), &column);
+            sent.set_column(first.places[emission + n], &column);
         }
         for n in 0..scene {
             let by_spectrum = by_number.column(UNKNOWNS).component_mul(&basis.column(n));
-            sent.set_column(first.place(n), &by_spectrum);
+            sent.set_column(first.places[n], &by_spectrum);
         }
     }
     if let Some(Fall { place, sd, falling, .. }) = first.model.fall(w) {
-        let place = first.place(emission + place);
+        let place = first.places[emission + place];
         for (band, albedo) in point.albedo.iter().enumerate() {
             let change = albedo * (1.0 - albedo) * sd * falling[band];
             slopes[(band, place)] = point.departure.reflectance[0] * change;
@@ -264,11 +247,11 @@ fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> D
     for (band, albedo) in point.albedo.iter().enumerate() {
         for n in 0..scene {
             let change = albedo * (1.0 - albedo) * basis[(band, n)];
-            slopes[(band, first.place(n))] = point.departure.reflectance[0] * change;
-            slopes[(bands + band, first.place(n))] = change;
+            slopes[(band, first.places[n])] = point.departure.reflectance[0] * change;
+            slopes[(bands + band, first.places[n])] = change;
         }
     }
-    let numbers = first.model.scene_unknowns().iter().zip(scene..);
+    let numbers = first.model.numbers.iter().zip(scene..);
     let of_sheet = numbers.filter(|(number, _)| number.unknown.is_of_sheet()).map(|(_, n)| n);
     for n in of_sheet.chain(sheet..camera) {
         let mut shifted = w.clone();
@@ -276,7 +259,7 @@ fn slopes(first: &Member, unknowns: usize, w: &DVector<f64>, point: &Point) -> D
         let moved = first.model.point(&shifted).departure.reflectance;
         let [slope, offset] = [0, 1].map(|k| (moved[k] - point.departure.reflectance[k]) / STEP);
         for (band, albedo) in point.albedo.iter().enumerate() {
-            slopes[(band, first.place(n))] = slope * albedo + offset;
+            slopes[(band, first.places[n])] = slope * albedo + offset;
         }
     }
     slopes

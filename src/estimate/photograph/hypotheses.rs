@@ -48,24 +48,17 @@ impl Mistake {
     }
 }
 
-/// All hypotheses on photographs of folds, the most probable first.
-pub fn hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
-    let mut all = usual_hypotheses();
-    // the sensitivities of another camera are never exactly those of this one; an ideal fold is the same for
-    // every sheet model
-    if !photographs.iter().any(|photograph| photograph.parts.eye.is_stand_in) {
-        let mistakes = [None, Some(Mistake::Angle), Some(Mistake::Sky)];
-        all.extend(mistakes.map(Hypothesis::ideal));
-        if photographs.iter().any(|photograph| photograph.parts.stated.is_exposure_stated()) {
-            all.push(Hypothesis::ideal(Some(Mistake::Exposure)));
-        }
+/// Hypotheses on photographs of ideal folds.
+pub fn ideal_hypotheses(photographs: &[Photograph]) -> Vec<Hypothesis> {
+    // the sensitivities of another camera are never exactly those of this one
+    if photographs.iter().any(|photograph| photograph.parts.eye.is_stand_in) {
+        return Vec::new();
     }
-    all
-}
-
-/// Hypotheses on usual photographs.
-pub fn usual_hypotheses() -> Vec<Hypothesis> {
-    SheetModel::ALL.map(Hypothesis::usual).to_vec()
+    let is_exposure_stated =
+        photographs.iter().any(|photograph| photograph.parts.stated.is_exposure_stated());
+    let mistakes = [None, Some(Mistake::Angle), Some(Mistake::Sky)].into_iter();
+    let mistakes = mistakes.chain(is_exposure_stated.then_some(Some(Mistake::Exposure)));
+    mistakes.map(Hypothesis::ideal).collect()
 }
 
 /// Kinds of day, other than clear ones, on which photographs may have been taken.
@@ -121,11 +114,6 @@ impl Hypothesis {
             self.mistake != other.mistake,
             self.kind != other.kind,
         ]
-    }
-
-    /// True for a usual photograph of a fold on a clear day.
-    pub fn is_usual_fold(&self) -> bool {
-        *self == Self::usual(self.kind)
     }
 
     /// True if light bounces between the panels, as in a fold.

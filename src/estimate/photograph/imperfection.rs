@@ -6,7 +6,9 @@ use super::priors::Priors;
 /// the sheet's differences from a matte one, errors in the stated angle, tilt, exposure, light and camera,
 /// and the model error.
 ///
-/// No value is chosen: estimates are made under each one that the facets permit, and weighed by evidence.
+/// Estimates are made under [`Ideal`](Self::Ideal) and [`Usual`](Self::Usual), as far as facets permit, and
+/// weighed by evidence. Those between decide only how much a real sheet's evidence counts against an ideal
+/// fold's: residuals of a picture taken with care are far smaller than the usual model error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Imperfection {
     /// Nothing: an ideal fold of a perfectly matte sheet in a scene exactly as stated, a computed one. If

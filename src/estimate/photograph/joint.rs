@@ -15,23 +15,10 @@ pub struct Member<'a> {
     /// The model of this photograph alone.
     pub model: PhotographModel<'a>,
     /// Index, among all numbers, of each of its own.
-    places: Vec<usize>,
+    pub places: Vec<usize>,
 }
 
 impl Member<'_> {
-    /// Index, among all numbers, of the model's `n`-th.
-    #[must_use]
-    pub fn place(&self, n: usize) -> usize {
-        self.places[n]
-    }
-
-    /// Index, among all numbers, of the size of the sheet's emission, if it has any.
-    #[must_use]
-    pub fn size_of_emission(&self) -> Option<usize> {
-        let [.., emission, _] = self.model.layout();
-        self.places.get(emission).copied()
-    }
-
     /// Index, among all numbers, of the counterpart of the `n`-th of another model, if this one has it: lamps
     /// lack those of daylight.
     fn place_like(&self, other: &PhotographModel, n: usize) -> Option<usize> {
@@ -39,8 +26,8 @@ impl Member<'_> {
         let at = match n {
             n if n < scene => n,
             n if n < sheet => {
-                let Number { unknown, .. } = other.scene_unknowns()[n - scene];
-                own[0] + self.model.scene_unknowns().iter().position(|one| one.unknown == unknown)?
+                let Number { unknown, .. } = other.numbers[n - scene];
+                own[0] + self.model.numbers.iter().position(|one| one.unknown == unknown)?
             }
             n if n < camera => own[1] + n - sheet,
             n if n < emission => own[2] + n - camera,
@@ -60,7 +47,7 @@ impl Member<'_> {
 /// come first.
 pub struct JointModel<'a> {
     /// The photographs, one or more.
-    members: Vec<Member<'a>>,
+    pub members: Vec<Member<'a>>,
     count: usize,
 }
 
@@ -84,7 +71,7 @@ impl<'a> JointModel<'a> {
             let [scene, sheet, camera, emission, end] = model.layout();
             let is_shared = |n: usize| match n {
                 n if n < scene || n >= emission || (sheet..camera).contains(&n) => members.first(),
-                n if n < sheet && model.scene_unknowns()[n - scene].unknown.is_of_sheet() => members.first(),
+                n if n < sheet && model.numbers[n - scene].unknown.is_of_sheet() => members.first(),
                 n if n >= camera => same_camera.map(|other| &members[other]),
                 _ => None,
             };
@@ -107,12 +94,6 @@ impl<'a> JointModel<'a> {
         &self.members[0]
     }
 
-    /// The photographs.
-    #[must_use]
-    pub fn members(&self) -> &[Member<'a>] {
-        &self.members
-    }
-
     /// Transfers the point `w` of another model of the same photographs, as far as this one has the same
     /// numbers; the others are at their means.
     #[must_use]
@@ -133,7 +114,7 @@ impl<'a> JointModel<'a> {
     pub fn each(&self, residuals: &DVector<f64>) -> Vec<DVector<f64>> {
         let mut first = 0;
         let of = |member: &Member| {
-            let count = member.model.values().len();
+            let count = member.model.parts.values.len();
             first += count;
             residuals.rows(first - count, count).into_owned()
         };
@@ -175,10 +156,5 @@ impl<'a> Model for JointModel<'a> {
             first += one.residuals.len();
         }
         Linearised::new(at.residuals, jacobian, ())
-    }
-
-    /// Omitted: the priors bound the unknowns, and the noise of photographs does not act as a constraint.
-    fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
-        None
     }
 }

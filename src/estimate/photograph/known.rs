@@ -90,11 +90,6 @@ impl<'a> Model for KnownModel<'a> {
         jacobian.rows_mut(facets, bands).copy_from(&by_reflectance);
         Linearised::new(at.residuals, jacobian, ())
     }
-
-    /// Omitted as for photographs.
-    fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
-        None
-    }
 }
 
 /// A photograph of a known sheet on a kind of day.
@@ -138,14 +133,14 @@ impl Photographs<'_> {
         let Solution { w, at, .. } = found;
         let lower = at.information()?.l();
         let own = lower.solve_lower_triangular(&DMatrix::identity(lower.nrows(), lower.nrows()))?;
-        let facets = model.photograph.first().model.values().len();
+        let facets = model.photograph.first().model.parts.values.len();
         let rms = rms(&at.residuals.rows(0, facets).into_owned());
         let mired = |unknown: &Unknown| {
             let first = &model.photograph.first();
             let [scene, ..] = first.model.layout();
-            let numbers = first.model.scene_unknowns();
-            let n = numbers.iter().position(|one| one.unknown == unknown && one.matters())?;
-            let place = first.place(scene + n);
+            let numbers = &first.model.numbers;
+            let n = numbers.iter().position(|one| one.unknown == unknown && one.matters)?;
+            let place = first.places[scene + n];
             let (cct_k, slope) = numbers[n].at(w[place]);
             let sd = rms.max(1.0) * own.column(place).norm() * slope.abs() * 1e6 / (cct_k * cct_k);
             Some(Normal { mean: 1e6 / cct_k, sd })

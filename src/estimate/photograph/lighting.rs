@@ -68,7 +68,7 @@ fn powers(parts: &Parts, conditions: &Conditions) -> [DVector<f64>; 3] {
     let daylight = |mired: f64| Daylight::power(&eye.daylight, mired);
     let sun = match conditions.sun_mired.zip(parts.stated.daylight) {
         Some((mired, nominal)) => {
-            eye.sun.component_mul(&daylight(mired).component_div(&daylight(nominal.mired())))
+            eye.sun.component_mul(&daylight(mired).component_div(&daylight(nominal.mired)))
         }
         None => eye.sun.clone(),
     };

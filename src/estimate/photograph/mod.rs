@@ -41,5 +41,5 @@ pub(super) use family::Photographs;
 pub use finding::Finding;
 pub(super) use known::{KnownReflectance, KnownSeen, shown_daylight};
 pub use parts::Parts;
-pub use search::{Modes, SheetEstimate, Weighed, estimate, estimate_usual, weigh};
+pub use search::{SheetEstimate, Weighed, estimate, estimate_usual, weigh};
 pub use unmodelled::Unmodelled;

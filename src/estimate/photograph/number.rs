@@ -11,7 +11,8 @@ pub struct Number {
     /// The unknown.
     pub unknown: &'static Unknown,
     prior: Expectation,
-    matters: bool,
+    /// True if it has any effect.
+    pub matters: bool,
 }
 
 impl Number {
@@ -24,7 +25,7 @@ impl Number {
             // day
             let of_day = |day: &Day| (unknown.prior)(&StatedScene { day: *day, ..*stated });
             let prior = own.or_else(|| Day::ALL.iter().find_map(of_day))?;
-            // in an ideal fold only what is mistaken is unknown
+            // in an ideal fold only what nobody stated, or what is mistaken, is unknown
             let matters = own.is_some()
                 && match mistake {
                     _ if matches!(known, Known::Usual | Known::Metered) => true,
@@ -37,12 +38,6 @@ impl Number {
             Some(Self { unknown, prior, matters })
         };
         TABLE.iter().filter_map(number).collect()
-    }
-
-    /// True if it has any effect.
-    #[must_use]
-    pub fn matters(&self) -> bool {
-        self.matters
     }
 
     /// Value at `w`, a standard normal number, and its derivative, in the unit of the unknown.

@@ -10,7 +10,7 @@ use super::corners;
 use super::day::{Day, DayEstimate};
 use super::family::{Photographs, Seen};
 use super::findings::{of_day, of_unknowns};
-use super::hypotheses::{Hypothesis, dull_days, hypotheses, usual_hypotheses};
+use super::hypotheses::{Hypothesis, dull_days, ideal_hypotheses};
 use super::parts::Parts;
 use super::sorting::{LN_EVIDENCE_HOPELESS, LN_EVIDENCE_NEAR, Tried, sorted};
 use super::whitened::Photograph;
@@ -22,38 +22,31 @@ use crate::estimate::fluorescence_search::{self, is_hopeful};
 use crate::estimate::mixture::Mixture;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::Search;
+use crate::estimate::searched::Trace;
 use crate::estimate::{Estimate, Fitted};
 use crate::kernel::skipped::Skipped;
 use crate::solve::dense::rms;
+use crate::solve::forecast::ScoreTest;
 use crate::solve::ln_sum;
 use crate::solve::posterior::{Iteration, Model};
 
-/// Photographs of a sheet with their hypotheses weighed under all spectra as one.
+/// Photographs of a sheet, with hypotheses on them weighed under all spectra as one: what the estimate, and
+/// searches in another light or of another camera, start from.
 pub struct Weighed<'a> {
-    /// What searches in another light or of another camera start from.
-    pub modes: Modes<'a>,
-    /// The hypotheses that the evidence does not rule out.
-    pub possible: Possible,
-}
-
-/// Modes of a sheet of the [family](super::sheet_models::SheetModel::Family).
-pub struct Modes<'a> {
     /// The photographs, with errors relative to predicted values.
     pub photographs: Photographs<'a>,
     /// The most probable kind of day; `None` if the light is not daylight.
     pub day: Option<DayEstimate>,
-    /// The mode on each kind of day that was tried.
-    of_days: Vec<(Day, DVector<f64>)>,
+    /// The mode of a sheet of the [family](super::sheet_models::SheetModel::Family) on that kind of day; if
+    /// the light is not daylight, on the first that was tried.
+    pub of_family: Option<(Day, DVector<f64>)>,
     /// Logarithm of how many times as probable the facets of a usual photograph are if the sheet may emit
     /// light: other lights and cameras, in which it is assumed not to, must be ahead by more.
     pub ln_by_emission: f64,
-}
-
-/// Hypotheses in order of evidence.
-pub struct Possible {
+    /// The hypotheses that the evidence does not rule out, in order of evidence.
     sorted: Vec<Tried>,
     /// Iterations by run.
-    trace: Vec<Vec<Iteration>>,
+    trace: Trace,
 }
 
 /// A sheet as inferred from its photographs.
@@ -70,7 +63,7 @@ pub struct SheetEstimate {
 /// # Errors
 /// [`Error::Numeric`] if the facets are not finite.
 pub fn weigh<'a>(parts: &'a [Parts], prior: &Prior) -> Result<Weighed<'a>> {
-    Weighed::under(parts, prior, (hypotheses, dull_days)).ok_or_else(not_finite)
+    Weighed::of(parts, prior, false).ok_or_else(not_finite)
 }
 
 /// The estimate from photographs of one sheet, one or more.
@@ -78,12 +71,11 @@ pub fn weigh<'a>(parts: &'a [Parts], prior: &Prior) -> Result<Weighed<'a>> {
 /// # Errors
 /// As [`weigh`].
 pub fn estimate(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
-    let Weighed { modes, possible } = weigh(parts, prior)?;
-    modes.estimate(possible, prior)
+    weigh(parts, prior)?.estimate(prior)
 }
 
-/// The estimate from photographs assumed to be usual ones, however ideal their facets, as those of planned
-/// photographs are.
+/// The estimate from photographs assumed to be usual ones on a clear day, however ideal their facets: those
+/// of planned photographs are ideal.
 ///
 /// # Errors
 /// As [`estimate`]; [`Error::Field`] if the stated scene has no sun, which is required here.
@@ -93,9 +85,7 @@ pub fn estimate_usual(parts: &[Parts], prior: &Prior) -> Result<SheetEstimate> {
                        estimate one lit by the sky alone by itself";
         return Err(Error::field("light.sun", problem));
     }
-    let Weighed { modes, possible } =
-        Weighed::under(parts, prior, (|_| usual_hypotheses(), |_| Vec::new())).ok_or_else(not_finite)?;
-    modes.estimate(possible, prior)
+    Weighed::of(parts, prior, true).ok_or_else(not_finite)?.estimate(prior)
 }
 
 fn not_finite() -> Error {
@@ -103,55 +93,43 @@ fn not_finite() -> Error {
 }
 
 impl<'a> Weighed<'a> {
-    fn under(
-        parts: &'a [Parts],
-        prior: &Prior,
-        (hypotheses, dull_days): (
-            impl Fn(&[Photograph]) -> Vec<Hypothesis>,
-            impl Fn(&[Photograph]) -> Vec<Day>,
-        ),
-    ) -> Option<Self> {
+    /// `None` if the facets are not finite.
+    fn of(parts: &'a [Parts], prior: &Prior, are_usual: bool) -> Option<Self> {
         let (photographs, start) = Photographs::of(parts, prior)?;
-        let all = hypotheses(&photographs.0);
-        let (mut sorted, mut trace) = sorted(&photographs, prior, (all, start), &dull_days(&photographs.0))?;
+        let (ideal, dull_days) = match are_usual {
+            true => (Vec::new(), Vec::new()),
+            false => (ideal_hypotheses(&photographs.0), dull_days(&photographs.0)),
+        };
+        let (mut sorted, mut trace) = sorted(&photographs, prior, (ideal, start), &dull_days)?;
         let mut search = Search::new(&photographs, prior);
-        let ln_by_emission = add_emitting(&mut search, &photographs, &mut sorted).unwrap_or(0.0);
+        let ln_by_emission = add_emitting(&mut search, &mut sorted).unwrap_or(0.0);
         sorted.sort_by(Tried::order);
         trace.extend(search.trace);
-        let is_of_family = |one: &Hypothesis| {
-            let Hypothesis { day, emission, .. } = *one;
-            *one == Hypothesis { emission, ..Hypothesis::of_family(day) }
-        };
-        let of_family = sorted.iter().filter(|one| is_of_family(&one.hypothesis));
-        let of_days = of_family.map(|one| (one.hypothesis.day, one.solution.w.clone())).collect();
         let day = day(&sorted, &photographs.0);
+        let of_family = sorted.iter().find(|Tried { hypothesis, .. }| {
+            let Hypothesis { day: own, emission, .. } = *hypothesis;
+            *hypothesis == Hypothesis { emission, ..Hypothesis::of_family(own) }
+                && day.is_none_or(|found| found.day == own)
+        });
+        let of_family = of_family.map(|one| (one.hypothesis.day, one.solution.w.clone()));
         let least = sorted.first()?.ln_weight() + LN_EVIDENCE_NEAR;
         sorted.retain(|one| one.ln_weight() >= least);
-        let modes = Modes { photographs, day, of_days, ln_by_emission };
-        Some(Self { modes, possible: Possible { sorted, trace } })
-    }
-}
-
-impl Modes<'_> {
-    /// The mode on the most probable kind of day, or on the first one if the light is not daylight.
-    #[must_use]
-    pub fn of_day(&self) -> Option<&(Day, DVector<f64>)> {
-        self.of_days.iter().find(|(of, _)| self.day.is_none_or(|found| found.day == *of))
+        Some(Self { photographs, day, of_family, ln_by_emission, sorted, trace })
     }
 
-    /// The estimate under all `possible` hypotheses on these photographs.
+    /// The estimate under all hypotheses that remain possible.
     ///
     /// # Errors
     /// [`Error::Numeric`] if the facets are not finite.
-    pub fn estimate(&self, possible: Possible, prior: &Prior) -> Result<SheetEstimate> {
-        self.mixture(possible, prior).ok_or_else(not_finite)
+    pub fn estimate(&self, prior: &Prior) -> Result<SheetEstimate> {
+        self.mixture(prior).ok_or_else(not_finite)
     }
 
-    fn mixture(&self, Possible { sorted, trace }: Possible, prior: &Prior) -> Option<SheetEstimate> {
+    fn mixture(&self, prior: &Prior) -> Option<SheetEstimate> {
         let Self { photographs, day, .. } = self;
         let mut search = Search::new(photographs, prior);
-        search.trace = trace;
-        let found = search.mixture(&sorted)?;
+        search.trace.clone_from(&self.trace);
+        let found = search.mixture(&self.sorted)?;
         let seen = photographs.seen(&found.best)?;
         let without = found.shares.iter().filter(|(hypothesis, _)| !hypothesis.has_bounces());
         // shares may add up to slightly more than 1 by rounding
@@ -175,7 +153,8 @@ impl Modes<'_> {
 /// a fraction of white in the light of each, and are tried if the sheet was backed alike in all.
 ///
 /// Returns the logarithm of how many times as probable emission makes the facets; `None` if it is not tried.
-fn add_emitting(search: &mut Search<Photographs>, family: &Photographs, all: &mut Vec<Tried>) -> Option<f64> {
+fn add_emitting(search: &mut Search<Photographs>, all: &mut Vec<Tried>) -> Option<f64> {
+    let (family, broad) = (search.family, search.prior.broad());
     let first = family.0.first()?;
     if family.0.iter().any(|one| one.parts.stated.backing != first.parts.stated.backing) {
         return None;
@@ -185,9 +164,8 @@ fn add_emitting(search: &mut Search<Photographs>, family: &Photographs, all: &mu
     let best = all.iter().find(is_real).filter(|one| one.ln_weight() >= least)?;
     let (of_best, w, ln_best, ln_share) =
         (best.hypothesis, best.solution.w.clone(), best.ln_weight(), best.ln_share);
-    let test = search.score_test(best)?;
+    let test = ScoreTest::at(&best.solution, search.tempering())?;
     let residuals = best.solution.at.residuals.clone();
-    let broad = search.broad();
     let logit = broad.logit_at(&w.rows(0, broad.basis().ncols()).into_owned());
     let is_exposure_known = family.0.iter().all(|one| one.parts.stated.exposure.is_some());
     let plain = family.model(of_best, broad)?;
@@ -204,7 +182,8 @@ fn add_emitting(search: &mut Search<Photographs>, family: &Photographs, all: &mu
         let hypothesis = Hypothesis { emission: Some(place), ..of_best };
         let model = family.model(hypothesis, broad)?;
         let start = model.carried(&plain, &w);
-        let size = model.first().size_of_emission()?;
+        let [.., of_emission, _] = model.first().model.layout();
+        let size = *model.first().places.get(of_emission)?;
         let changes = SIZES.map(|(probability, number)| {
             let mut at = start.clone();
             at[size] = number;
@@ -271,17 +250,17 @@ fn all_findings(
 
 /// Quantities about which the facets say nothing.
 fn skipped(fitted: &[Fitted], searches: usize) -> Vec<Skipped> {
-    let assumed = fitted.iter().filter(|one| !one.supported).count();
-    let all = [
-        ("searches with one sheet model and one class of spectra", searches, "the evidence is against them"),
-        (
-            "unknowns of the scene",
-            assumed,
-            "the facets do not determine them: they stay at their prior means",
-        ),
-    ];
-    let of = |(what, count, why)| Skipped { what, count, why };
-    all.map(of).into_iter().filter(|one| one.count > 0).collect()
+    let searches = Skipped {
+        what: "searches with one sheet model and one class of spectra",
+        count: searches,
+        why: "the evidence is against them",
+    };
+    let unknowns = Skipped {
+        what: "unknowns of the scene",
+        count: fitted.iter().filter(|one| !one.supported).count(),
+        why: "the facets do not determine them: they stay at their prior means",
+    };
+    [searches, unknowns].into_iter().filter(|one| one.count > 0).collect()
 }
 
 /// The mean of all modes as the estimate of a photograph.

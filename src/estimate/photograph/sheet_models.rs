@@ -5,7 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use super::conditions::Conditions;
 use super::parts::{Parts, Radiance, lagrange};
 use super::priors::Priors;
-use super::sheets::{Departure, FAMILY_NODES, FamilyNodes, SHEEN, Sheets};
+use super::sheets::{
+    BODY_ROUGHNESSES_DEG, Departure, INSTRUMENT_SHARED, SHEEN, SPECULAR_ROUGHNESSES, SPECULAR_WEIGHTS, Sheets,
+};
 use crate::estimate::unknowns::Unknown;
 use crate::solve::Eigen;
 use crate::solve::dense::rms;
@@ -107,8 +109,7 @@ impl<'a> SheetModels<'a> {
         let mut sum = match kind {
             SheetModel::Measured => {
                 let mut mean = self.measured.clone();
-                mean.reflectance[0] +=
-                    self.sheets.instrument.shared * variations.last().copied().unwrap_or(0.0);
+                mean.reflectance[0] += INSTRUMENT_SHARED * variations.last().copied().unwrap_or(0.0);
                 mean
             }
             // for these two the formula gives the instrument's reading
@@ -122,11 +123,10 @@ impl<'a> SheetModels<'a> {
     }
 
     fn family(&self, conditions: &Conditions) -> Departure {
-        let FamilyNodes { specular_weight, specular_roughness, body_roughness_deg } = FAMILY_NODES;
         let shares = [
-            lagrange(specular_weight, conditions.specular_weight),
-            lagrange(specular_roughness, conditions.specular_roughness),
-            lagrange(body_roughness_deg, conditions.body_roughness_deg),
+            lagrange(SPECULAR_WEIGHTS, conditions.specular_weight),
+            lagrange(SPECULAR_ROUGHNESSES, conditions.specular_roughness),
+            lagrange(BODY_ROUGHNESSES_DEG, conditions.body_roughness_deg),
         ];
         let mut sum = Departure::none(&self.measured.radiance);
         for (n, departure) in self.sheets.families.iter().enumerate() {

@@ -43,46 +43,30 @@ impl Departure {
     }
 }
 
-/// Nodes of the grid of formula parameters: specular weight and roughness, body roughness.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FamilyNodes {
-    /// Specular weights, the first of which is 0.
-    pub specular_weight: [f64; 3],
-    /// Specular roughnesses.
-    pub specular_roughness: [f64; 3],
-    /// Body roughnesses, degrees.
-    pub body_roughness_deg: [f64; 3],
-}
-
-/// The nodes used.
-pub const FAMILY_NODES: FamilyNodes = FamilyNodes {
-    specular_weight: [0.0, 0.4, 1.0],
-    specular_roughness: [0.28, 0.42, 0.65],
-    body_roughness_deg: [0.0, 12.0, 25.0],
-};
-
-/// Values of sheen for which it is tabulated, with the middle of [`FAMILY_NODES`].
+/// Nodes of the grid of a formula's parameters: specular weights, the first of which is 0.
+pub const SPECULAR_WEIGHTS: [f64; 3] = [0.0, 0.4, 1.0];
+/// Specular roughnesses.
+pub const SPECULAR_ROUGHNESSES: [f64; 3] = [0.28, 0.42, 0.65];
+/// Body roughnesses, degrees.
+pub const BODY_ROUGHNESSES_DEG: [f64; 3] = [0.0, 12.0, 25.0];
+/// Values of sheen for which it is tabulated, in the middle of that grid.
 pub const SHEEN: [f64; 2] = [0.4, 1.0];
+
+/// Errors of the 45:0 reflectance of a measured sheet inferred from its facets by means of the others,
+/// relative to the albedo: common to all bands (6.3 to 6.7 %, each left out in turn on two folds), and in
+/// addition in each band, smooth over the wavelengths (for the six that were photographed).
+pub const INSTRUMENT_SHARED: f64 = 0.065;
+/// The addition in each band.
+pub const INSTRUMENT_OWN: f64 = 0.06;
+
 /// Known reflection of sheets.
 #[derive(Clone, Debug)]
 pub struct Sheets {
-    /// Sheets with an Oren-Nayar body and a microfacet surface, over [`FAMILY_NODES`]: specular weight,
-    /// specular roughness, body roughness, the last varying fastest.
+    /// Sheets with an Oren-Nayar body and a microfacet surface, over the grid of specular weights, specular
+    /// roughnesses and body roughnesses, the last varying fastest.
     pub families: Vec<Departure>,
     /// Changes by [`SHEEN`].
     pub sheen: [Departure; 2],
     /// The measured sheets.
     pub measured: Vec<Departure>,
-    /// Properties of measured sheets that facets do not reveal.
-    pub instrument: Instrument,
-}
-
-/// Differences in the 45:0 reading of an instrument between sheets that look the same to the camera: standard
-/// deviations relative to the albedo.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Instrument {
-    /// Common to all wavebands.
-    pub shared: f64,
-    /// In each waveband by itself, smooth over the wavelengths.
-    pub own: f64,
 }

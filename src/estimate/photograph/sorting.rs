@@ -16,8 +16,8 @@ use crate::estimate::prior::Prior;
 use crate::estimate::search::{Search, Sorted};
 use crate::estimate::searched::Trace;
 
-/// Log evidence relative to the best above which folds count, and above which ideal folds are weighed again
-/// against real sheets.
+/// Log evidence relative to the best above which hypotheses count, and above which ideal folds are weighed
+/// again against real sheets.
 pub const LN_EVIDENCE_NEAR: f64 = -5.0;
 /// Hypotheses whose log evidence is further below the best are hopeless, and their searches are abandoned.
 pub const LN_EVIDENCE_HOPELESS: f64 = -10.0;
@@ -76,12 +76,12 @@ impl Series {
     }
 }
 
-/// Hypotheses in order of evidence under all spectra, and the trace of their searches: the first, started
-/// from `start`, then usual folds and ideal ones, then dull days and sheets without bounces.
+/// Usual folds, the `ideal` ones, dull days and sheets without bounces in order of evidence under all spectra,
+/// with the trace of their searches: in this order, the first from `start`.
 pub fn sorted(
     photographs: &Photographs,
     prior: &Prior,
-    (hypotheses, start): (Vec<Hypothesis>, DVector<f64>),
+    (ideal, start): (Vec<Hypothesis>, DVector<f64>),
     dull_days: &[Day],
 ) -> Option<(Vec<Tried>, Trace)> {
     let stated = &photographs.0.first()?.parts.stated;
@@ -96,11 +96,11 @@ pub fn sorted(
             trace.extend(more);
         }
     };
-    let (usual, ideal): (Vec<_>, Vec<_>) = hypotheses.into_iter().partition(Hypothesis::is_usual_fold);
-    let (first, others) = usual.split_first()?;
-    add(vec![Series::of([*first])], &mut all);
-    add(vec![Series::of(others.iter().copied()), Series::of(ideal)], &mut all);
-    let mut by_weight: Vec<&Tried> = all.iter().filter(|one| one.hypothesis.is_usual_fold()).collect();
+    let [first, others @ ..] = SheetModel::ALL.map(Hypothesis::usual);
+    add(vec![Series::of([first])], &mut all);
+    add(vec![Series::of(others), Series::of(ideal)], &mut all);
+    let mut by_weight: Vec<&Tried> =
+        all.iter().filter(|one| !one.hypothesis.imperfection.is_ideal()).collect();
     by_weight.sort_by(|a, b| a.order(b));
     let by_weight: Vec<SheetModel> = by_weight.into_iter().map(|one| one.hypothesis.kind).collect();
     let mut days = dull_days.iter().map(|day| Series::on(*day, &by_weight));

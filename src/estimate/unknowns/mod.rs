@@ -44,7 +44,7 @@ pub use sun_colour::SUN_COLOUR;
 pub use surroundings::EVEN_SKY;
 use surroundings::{CLOUD, ELEVATION, GROUND, GROUND_REDNESS, SUN};
 pub use tilt::TILT;
-pub use unknown::{AUTO, Fitted, Flag, Known, NONE, Role, Symptom, Unknown, Whose};
+pub use unknown::{AUTO, Fitted, Flag, Known, NONE, Role, SUPPORTED, Symptom, Unknown, Whose};
 
 pub use super::normal::{Expectation, Normal, Scale};
 

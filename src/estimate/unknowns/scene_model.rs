@@ -115,26 +115,17 @@ impl SceneModel {
         self
     }
 
-    /// The model with its unknowns, in their order and units, fixed at these values.
-    #[must_use]
-    pub fn with_values(&self, values: &[f64]) -> FacetModel {
-        let amount = |factors: &Vec<Factor>| {
-            let unknowns = self.unknowns.iter().zip(values);
-            factors
-                .iter()
-                .zip(unknowns)
-                .map(|(factor, (expected, value))| factor.at(expected.unknown.scale.normal(*value))[0])
-                .product()
-        };
-        self.facets.in_amounts(&self.factors.iter().map(amount).collect::<Vec<f64>>())
-    }
-
     /// The model with its unknowns at their `found` values, in their units, or at their prior means if there
     /// are none.
     #[must_use]
     pub fn with_fitted(&self, found: impl Fn(&Unknown) -> Option<f64>) -> FacetModel {
-        let value = |one: &Expected| found(one.unknown).unwrap_or_else(|| one.at(0.0).0);
-        self.with_values(&self.unknowns.iter().map(value).collect::<Vec<f64>>())
+        let number =
+            |one: &Expected| one.unknown.scale.normal(found(one.unknown).unwrap_or_else(|| one.at(0.0).0));
+        let numbers: Vec<f64> = self.unknowns.iter().map(number).collect();
+        let amount = |factors: &Vec<Factor>| {
+            factors.iter().zip(&numbers).map(|(factor, number)| factor.at(*number)[0]).product()
+        };
+        self.facets.in_amounts(&self.factors.iter().map(amount).collect::<Vec<f64>>())
     }
 
     /// Amounts of the sources at `w`, one standard normal number per unknown.

@@ -22,7 +22,7 @@ pub static SUN_COLOUR: Unknown = Unknown {
     prior,
     set: |conditions, value| conditions.sun_mired = Some(1e6 / value),
     symptom: Some(Symptom {
-        ideal: |stated| stated.daylight.map(|daylight| 1e6 / daylight.mired()),
+        ideal: |stated| stated.daylight.map(|daylight| 1e6 / daylight.mired),
         least: 400.0,
         words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
         remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
@@ -31,11 +31,8 @@ pub static SUN_COLOUR: Unknown = Unknown {
 
 fn prior(stated: &StatedScene) -> Option<Expectation> {
     let shown = stated.shown.and_then(|shown| shown.sun[stated.day as usize]);
-    let usual = |nominal| {
-        let mean = match nominal {
-            Daylight::Cie { .. } => stated.priors.sun_mired,
-            Daylight::OfSun { mired } => mired,
-        };
+    let usual = |nominal: Daylight| {
+        let mean = if nominal.is_cie { stated.priors.sun_mired } else { nominal.mired };
         Normal { mean, sd: stated.priors.sun_mired_sd }
     };
     stated.daylight.map(|nominal| shown.unwrap_or_else(|| usual(nominal)).into())
@@ -56,8 +53,7 @@ fn enter(scene: &FoldInLight, Normal { mean, sd }: Normal, sources: &mut Sources
 /// The camera's response to the sun, made redder or bluer than stated by the ratio of daylight at this
 /// reciprocal temperature to the nominal one.
 fn sun(scene: &FoldInLight, nominal: Daylight, mired: f64) -> Result<CameraResponse> {
-    let [now, nominal] =
-        [mired, nominal.mired()].map(|mired| Daylight::power(&scene.daylight_vectors, mired));
+    let [now, nominal] = [mired, nominal.mired].map(|mired| Daylight::power(&scene.daylight_vectors, mired));
     let power = scene.sun_power.component_mul(&now.component_div(&nominal));
     scene.lighting.sun.to_other_light(&scene.grid, &scene.sensitivities, power.as_slice())
 }

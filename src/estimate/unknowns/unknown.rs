@@ -141,6 +141,10 @@ pub struct Fitted {
     pub supported: bool,
 }
 
+/// The facets say more about a number than the prior if its standard deviation is below this share of the
+/// prior one.
+pub const SUPPORTED: f64 = 0.8;
+
 impl Unknown {
     /// True if it belongs to the sheet, and is the same in every photograph of it.
     #[must_use]

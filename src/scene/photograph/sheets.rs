@@ -7,15 +7,12 @@ use ndarray::Axis;
 
 use super::bins::Bins;
 use crate::error::Result;
-use crate::estimate::photograph::sheets::{Departure, FAMILY_NODES, Instrument, SHEEN, Sheets};
+use crate::estimate::photograph::sheets::{
+    BODY_ROUGHNESSES_DEG, Departure, SHEEN, SPECULAR_ROUGHNESSES, SPECULAR_WEIGHTS, Sheets,
+};
 use crate::geometry::Fold;
 use crate::sheet::{Family, Shape, measured, measured_names};
 use crate::transport::departures;
-
-/// Errors of the 45:0 reflectance of a measured sheet inferred from its facets by means of the others: common
-/// to all bands (6.3 to 6.7 %, each left out in turn on two folds), and in addition in each band (for the six
-/// that were photographed).
-const INSTRUMENT: Instrument = Instrument { shared: 0.065, own: 0.06 };
 
 /// The known sheets as seen on this fold, without the measured one named `left_out`.
 pub fn of(
@@ -41,7 +38,6 @@ pub fn of(
         sheen: [0, 1].map(|n| fuzzy[n].less(of_family(MIDDLE))),
         families: (0..FAMILIES).map(|n| of_family(n).clone()).collect(),
         measured,
-        instrument: INSTRUMENT,
     })
 }
 
@@ -59,11 +55,10 @@ static FORMULAS: LazyLock<Vec<Shape>> = LazyLock::new(|| {
 
 /// The family at a node: specular weight, specular roughness and body roughness, the last varying fastest.
 fn family(n: usize) -> Family {
-    let nodes = FAMILY_NODES;
     Family {
-        specular_weight: nodes.specular_weight[n / 9],
-        roughness: nodes.specular_roughness[n / 3 % 3],
-        body_roughness_deg: nodes.body_roughness_deg[n % 3],
+        specular_weight: SPECULAR_WEIGHTS[n / 9],
+        roughness: SPECULAR_ROUGHNESSES[n / 3 % 3],
+        body_roughness_deg: BODY_ROUGHNESSES_DEG[n % 3],
         ..Family::default()
     }
 }

@@ -85,7 +85,7 @@ impl PhotographModel<'_> {
         let Ingredients { terms, sensitivities, conditions, beyond, facets: here, .. } = self.ingredients(w);
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
         let is_nominal =
-            |number: &&Number| (number.unknown.known)(&self.stated) == Known::Nominal && !number.matters();
+            |number: &&Number| (number.unknown.known)(&self.stated) == Known::Nominal && !number.matters;
         let numbers: Vec<&Number> = self.numbers.iter().filter(is_nominal).collect();
         let mut by_nominal = DMatrix::zeros(here.values.len(), numbers.len() + self.parts.eye.errors.len());
         for (mut column, number) in by_nominal.column_iter_mut().zip(&numbers) {
@@ -133,7 +133,7 @@ impl<'a> Model for PhotographModel<'a> {
         let mut jacobian = DMatrix::zeros(values.len(), end);
         self.by_spectrum(&mut jacobian.columns_mut(0, scene), &albedo, &terms.slopes, &here);
         let Hypothesis { kind, imperfection, .. } = self.hypothesis;
-        let telling = |(_, number): &(usize, &Number)| number.matters() && kind.has(number.unknown);
+        let telling = |(_, number): &(usize, &Number)| number.matters && kind.has(number.unknown);
         for (n, Number { unknown, .. }) in (scene..).zip(&self.numbers).filter(telling) {
             let mut shifted = w.clone();
             shifted[n] += STEP;
@@ -162,10 +162,5 @@ impl<'a> Model for PhotographModel<'a> {
             }
         }
         Linearised::new(at.residuals, self.whitening.of_all(&jacobian), ())
-    }
-
-    /// Omitted: the priors bound the unknowns, and the noise of photographs does not act as a constraint.
-    fn curvature(&self, (): &(), _: &DVector<f64>) -> Option<DMatrix<f64>> {
-        None
     }
 }

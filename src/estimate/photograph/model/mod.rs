@@ -7,7 +7,7 @@ mod emission;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::chebyshev::{chebyshev, nodes};
+use super::chebyshev::{nodes, weights};
 use super::conditions::{Conditions, StatedScene};
 use super::corners;
 use super::day::Day;
@@ -19,25 +19,25 @@ use super::number::Number;
 use super::parts::{Parts, Radiance};
 use super::prediction::{Predicted, Predictor, Terms};
 use super::sheet_models::{SheetModel, SheetModels};
-use super::sheets::Departure;
+use super::sheets::{Departure, INSTRUMENT_OWN, SPECULAR_ROUGHNESSES};
 use crate::estimate::emission::{Emission, Fall};
 use crate::estimate::gaussian::{Gaussian, logistic};
 use crate::estimate::smooth_errors::smooth_errors;
 
 /// The model under one hypothesis and one Gaussian of albedos.
 pub struct PhotographModel<'a> {
-    parts: &'a Parts,
+    pub(in crate::estimate::photograph) parts: &'a Parts,
     sheet_models: &'a SheetModels<'a>,
     hypothesis: Hypothesis,
     /// The emission of the sheet; `None` without any.
     emission: Option<&'a Emission>,
-    gaussian: &'a Gaussian,
-    whitening: &'a Whitening,
+    pub(in crate::estimate::photograph) gaussian: &'a Gaussian,
+    /// Of its residuals.
+    pub(in crate::estimate::photograph) whitening: &'a Whitening,
     /// The stated properties of the photograph that are used.
     stated: StatedScene,
-    numbers: Vec<Number>,
-    /// Maps values at the nodes to Chebyshev coefficients.
-    coefficients: DMatrix<f64>,
+    /// The unknowns of the scene.
+    pub numbers: Vec<Number>,
     /// Errors of the camera's sensitivities: waveband by error.
     curve_errors: DMatrix<f64>,
 }
@@ -76,9 +76,6 @@ impl<'a> PhotographModel<'a> {
         gaussian: &'a Gaussian,
         whitening: &'a Whitening,
     ) -> Self {
-        let count = parts.sun.even.ncols();
-        let chebyshev = chebyshev(&nodes(count), count).0;
-        let coefficients = chebyshev.try_inverse().unwrap_or_else(|| DMatrix::identity(count, count));
         let stated = hypothesis.stated(&parts.stated);
         Self {
             parts,
@@ -89,15 +86,8 @@ impl<'a> PhotographModel<'a> {
             whitening,
             stated,
             numbers: Number::all(&stated, hypothesis),
-            coefficients,
             curve_errors: curve_errors(parts),
         }
-    }
-
-    /// The unknowns of the scene.
-    #[must_use]
-    pub fn scene_unknowns(&self) -> &[Number] {
-        &self.numbers
     }
 
     /// First indices of the unknowns of the scene, the variations of the sheet, the errors of the camera and
@@ -146,31 +136,31 @@ impl<'a> PhotographModel<'a> {
             vignetting: 0.0,
             veiling_glare: 0.0,
             specular_weight: 0.0,
-            specular_roughness: 0.42,
+            specular_roughness: SPECULAR_ROUGHNESSES[1],
             body_roughness_deg: 0.0,
             sheen: 0.0,
         };
         let [first, ..] = self.layout();
-        for (n, number) in self.numbers.iter().enumerate().filter(|(_, number)| number.matters()) {
+        for (n, number) in self.numbers.iter().enumerate().filter(|(_, number)| number.matters) {
             (number.unknown.set)(&mut conditions, number.at(w[first + n]).0);
         }
         conditions
     }
 
     fn reflected_terms(&self, albedo: &[f64]) -> Terms {
-        let count = self.coefficients.nrows();
         if self.hypothesis.has_bounces() {
-            let (values, slopes) = chebyshev(albedo, count);
-            return Terms { values: &self.coefficients * values, slopes: &self.coefficients * slopes };
+            let (values, slopes) = weights(albedo);
+            return Terms { values, slopes };
         }
         // in a dark sheet light bounces once. A Lambertian sheet's radiance per unit of albedo is smoother
         // than the radiance itself and stays finite; specular reflection does not vanish with albedo, and
         // only the slope is determined
-        let (values, slopes) = chebyshev(&[0.0], count);
+        let (values, slopes) = weights(&[0.0]);
         let once = if self.hypothesis.imperfection.is_ideal() {
-            (&self.coefficients * values).component_div(&DMatrix::from_column_slice(count, 1, &nodes(count)))
+            let nodes = nodes();
+            values.component_div(&DMatrix::from_column_slice(nodes.len(), 1, &nodes))
         } else {
-            &self.coefficients * slopes
+            slopes
         };
         Terms {
             values: &once * DMatrix::from_row_slice(1, albedo.len(), albedo),
@@ -239,7 +229,7 @@ impl<'a> PhotographModel<'a> {
     #[must_use]
     pub fn instrument_errors(&self, albedo: &[f64]) -> Option<DMatrix<f64>> {
         let own = match self.hypothesis.kind {
-            SheetModel::Measured => self.parts.sheets.instrument.own,
+            SheetModel::Measured => INSTRUMENT_OWN,
             SheetModel::Matt | SheetModel::Family => return None,
         };
         let sd: Vec<f64> = albedo.iter().map(|albedo| own * albedo).collect();
@@ -253,34 +243,10 @@ impl<'a> PhotographModel<'a> {
         shifts.iter().map(|shift| self.whitening.of(shift)).collect()
     }
 
-    /// The whitening of its residuals.
-    #[must_use]
-    pub fn whitening(&self) -> &Whitening {
-        self.whitening
-    }
-
-    /// The Gaussian of logits of albedo.
-    #[must_use]
-    pub fn gaussian(&self) -> &Gaussian {
-        self.gaussian
-    }
-
     /// The values at `w`: facet by channel.
     #[must_use]
     pub fn values_at(&self, w: &DVector<f64>) -> DMatrix<f64> {
         self.ingredients(w).facets.values
-    }
-
-    /// The measured values: facet by channel.
-    #[must_use]
-    pub fn values(&self) -> &DMatrix<f64> {
-        &self.parts.values
-    }
-
-    /// Residuals before whitening: facet by channel.
-    #[must_use]
-    pub fn left_over(&self, w: &DVector<f64>) -> DMatrix<f64> {
-        &self.parts.values - self.ingredients(w).facets.values
     }
 }
 
