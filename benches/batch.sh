@@ -133,7 +133,7 @@ sizes() {
     echo '# Batches'
     echo
     echo "vfold $(vkernel --version | cut -d' ' -f2), $(rustc --version | cut -d' ' -f1,2), $(nproc) cores of$(sed -n 's/^model name.*://p' /proc/cpuinfo | head -n 1), $(parallel --version | sed 's/GNU parallel/GNU parallel/;q'), $(date +%F), load $(cut -d' ' -f1 /proc/loadavg);"
-    echo '45°, 10 x 10 facets a panel, facet noise 1e-3 of white. Hosts are ssh daemons on loopback that share the cores, one process each. Memory is the'
+    echo '45°, 10 x 10 facets per panel, facet noise 1e-3 of white. Hosts are ssh daemons on loopback that share the cores, one process each. Memory is the'
     echo 'peak of the largest process, with the file pages of programs.'
     echo
     echo '| what | samples | threads | hosts | s | samples/s | processor ms per sample | peak MB |'

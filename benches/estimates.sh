@@ -54,7 +54,7 @@ scipy() {
     echo
     machine "$bin/vkernel"
     echo
-    echo '45°, 10 x 10 facets a panel, D65, exposure known, one thread.'
+    echo '45°, 10 x 10 facets per panel, D65, exposure known, one thread.'
     echo "Mean RMSE and CIEDE2000 (10°, D65); processor time per estimate (mean, median, 95th percentile and worst, ms) and mean iterations; the four"
     echo "columns on the right are the paper's estimator"
     echo '(`--prior smooth`).'

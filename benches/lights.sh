@@ -19,7 +19,7 @@ made_by=$(machine "$bin/vkernel")
     echo
     echo "$made_by"
     echo
-    echo '64 sheets: the ColorChecker and five of each other set of `data/reflectance`; 45°, 10 x 10 facets a panel, Canon EOS 5D Mark II,'
+    echo '64 sheets: the ColorChecker and five of each other set of `data/reflectance`; 45°, 10 x 10 facets per panel, Canon EOS 5D Mark II,'
     echo 'exposure free. Identified: per cent of estimates of an unknown light whose expected spectrum is nearer to the true light than to any other of the'
     echo 'first eight of the table; likewise with one flat patch. Of eight: per cent in which the true light is the most probable, if these eight alone are'
     echo 'candidates, equally probable. Then RMSE and per cent of true values within two standard deviations, with the light stated rightly, unknown, known to be'

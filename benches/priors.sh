@@ -23,7 +23,7 @@ rows() {
     echo
     machine "$bin/vkernel"
     echo
-    echo '45°, 10 x 10 facets a panel, Canon EOS 5D Mark II, D65, exposure known; mean RMSE with the Munsell chips alone as the prior, and with all classes of'
+    echo '45°, 10 x 10 facets per panel, Canon EOS 5D Mark II, D65, exposure known; mean RMSE with the Munsell chips alone as the prior, and with all classes of'
     echo 'the built-in one. [Sets](sets.md) has more sets, through more cameras.'
     echo
     echo '| set | facet noise | chips alone | all classes |'

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Time and error of pyviewfactor on a 45-degree fold with 10 x 10 facets a panel.
+"""Time and error of pyviewfactor on a 45-degree fold with 10 x 10 facets per panel.
 
     pyviewfactor_kernel.py KERNEL.npy OUT.csv      KERNEL.npy from `vkernel --save kernel=KERNEL.npy`
 

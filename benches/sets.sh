@@ -47,7 +47,7 @@ below_one() {
     echo
     echo "$made_by"
     echo
-    echo '45°, 10 x 10 facets a panel. Sets through Canon EOS 5D Mark II, D65; Nikon D700, A; Sony A7 IV, D50; Fujifilm X-T3, FL11; Canon EOS R5, LED-V1;'
+    echo '45°, 10 x 10 facets per panel. Sets through Canon EOS 5D Mark II, D65; Nikon D700, A; Sony A7 IV, D50; Fujifilm X-T3, FL11; Canon EOS R5, LED-V1;'
     echo '"many" are greys, whites, dyes and edges through the first. Exposure known and free. Within: per cent of true values within one and two'
     echo 'standard deviations, of all wavebands; violet, red: at 400 to 420 and at 680 to 700 nm. Local modes: estimates that end in a worse one, further from the'
     echo 'truth than a search that starts there, by an RMSE of 0.01 and a factor of two. Time of an estimate: ms, one thread, the fastest of three runs.'

@@ -62,7 +62,7 @@ run "$many"
     echo
     echo "$head"
     echo
-    echo "\`benches/soak.sh $many\`: samples of 10 x 10 facets a panel through vforward, vestimate and vscore in one pipeline, photographs of 320 x 240 px"
+    echo "\`benches/soak.sh $many\`: samples of 10 x 10 facets per panel through vforward, vestimate and vscore in one pipeline, photographs of 320 x 240 px"
     echo 'through vextract. Memory is the peak of the process; vscore keeps the scores of all samples, some 40 bytes each, for their median.'
     echo
     echo '| tool | records | peak MB, a tenth of the records | peak MB, all |'

@@ -177,7 +177,7 @@ channels() {
     echo "$made_by"
     cat <<'END'
 
-ColorChecker (24 patches), Canon EOS 5D Mark II, D65, 45°, 10 x 10 facets a panel, facet noise 1e-3 of white and the exposure known,
+ColorChecker (24 patches), Canon EOS 5D Mark II, D65, 45°, 10 x 10 facets per panel, facet noise 1e-3 of white and the exposure known,
 except for what a table varies. Mean RMSE / mean CIEDE2000 (10°, D65), processor time per estimate: that of the whole process, start and
 prior included, over 24; sheets that no reflectance explains are refused and left out. Ignored: the scene states none. "Paper's" is
 `--prior smooth`, with the weight of smoothness that is best at a noise of 1e-3 (1e-3).

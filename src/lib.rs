@@ -1,6 +1,6 @@
 //! vfold measures the spectral reflectance of a matte sheet with an ordinary camera.
 //!
-//! Fold the sheet into a V and photograph it in the sun: light that bounces n times between the panels
+//! Fold the sheet into a V and photograph it in the sun: light that has been reflected n times in the fold
 //! carries the n-th power of the reflectance, so the colour gradient along the panels holds far more than
 //! three numbers. The five tools in `src/bin` are thin; everything they do is here. A single call,
 //! [`measure::sheet`], leads from a photograph to a spectrum.

@@ -15,7 +15,7 @@ use crate::solutions::operator;
 const N: usize = 10;
 /// Residual that rounding leaves.
 const ROUNDING: f64 = 1e-14;
-/// Sun off the plane that halves the fold, and a sky, where there are any.
+/// Sun off the bisecting plane of the fold, and a sky, where there are any.
 const TILT_DEG: f64 = 8.0;
 const SKY: f64 = 0.2;
 

@@ -5,7 +5,7 @@ complete -c vestimate -l model-error -d 'Independent error of each value, relati
 complete -c vestimate -l exposure -d 'Pixel value of a perfect white diffuser facing the sun; free: fit it; sum: normalise by sums, as in the paper [default: the sample\'s, else free]' -r
 complete -c vestimate -l fit -d 'Scene parameters to fit, comma-separated, each expected near what the scene states [default: auto for photographs, else none]' -r -f -a "exposure\t'Value of white facing the sun, as --exposure free'
 angle\t'Angle between the panels'
-tilt\t'Angle of the sun off the bisecting plane'
+tilt\t'Angle of the sun off the bisecting plane of the fold'
 sky\t'Amount of skylight, and its colour unless the scene has a sky illuminant'
 daylight\t'Colour of the sun, where the illuminant is daylight'
 auto\t'All effects of real sheets, lights and lenses, each with a prior'
@@ -14,7 +14,7 @@ complete -c vestimate -l join -d 'Estimate photographs of one sheet together: gr
 complete -c vestimate -l illuminants -d 'Candidates for an unknown light: every column of a file [default: daylight of 4000 to 12500 K, suns, black bodies of 2500 to 4000 K, LEDs, fluorescent lamps]' -r
 complete -c vestimate -l known-fold -d 'A fold of a sheet of known reflectance, taken by the same camera in the same light: one sample of vforward or vextract, and its reflectance. It fixes the light and, for computed facets, the exposure' -r
 complete -c vestimate -l start -d 'Initial reflectance [default: the prior mean; 0.5 for --prior smooth and none]' -r
-complete -c vestimate -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' colours under D65, flat and folded, and the residuals of a single sheet; for 8 to 60 samples, a small chart each; -: spectra of the first seven on standard error, in characters as wide as the terminal' -r -F
+complete -c vestimate -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' colours under D65, flat and folded, and the residuals of a single sheet; for 8 to 60 samples, a small chart each; -: spectra of the first seven as text on standard error, as wide as the terminal' -r -F
 complete -c vestimate -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
 complete -c vestimate -l trace -d 'Write the iterations of every estimate, one JSON record per line' -r -F
 complete -c vestimate -l method -d 'Estimate from the bounces in a fold (interreflection), or from the mean colour of a flat sheet (vkernel --angle-deg 180): park (2007), principal components and smoothness, or khan (2013), the components that camera and lights can see' -r -f -a "interreflection\t'From the bounces of light between the panels of a fold'

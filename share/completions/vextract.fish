@@ -9,14 +9,14 @@ complete -c vextract -l white-region -d 'Corners of a white card in the picture,
 complete -c vextract -l regions -d 'JSON file of corners (see below), - for standard input; the flags above override it' -r -F
 complete -c vextract -l margin -d 'Keep this distance from the panels\' edges, px' -r
 complete -c vextract -l refine -d 'Move the panels\' corners to the edges and the crease within PX pixels, 1 to 100, instead of 6, and report sides that have no edge' -r
-complete -c vextract -l distortion -d 'Lens distortion about the picture\'s centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the shorter side [default: K1 by the bend of the panels\' outer sides, unless corners are exact]' -r
+complete -c vextract -l distortion -d 'Lens distortion about the picture\'s centre: seen radius r (1 + K1 r² + K2 r⁴), r in units of half the shorter side [default: K1 from the bend of the panels\' outer sides, unless --exact-corners]' -r
 complete -c vextract -l overlay -d 'Draw panels, facets and excluded pixels (red) over the photograph; {} stands for the name of the IMAGE' -r -F
 complete -c vextract -l preview -d 'Write a small picture for finding corners with share/picker.html, and exit; {} as above' -r -F
 complete -c vextract -l transfer -d 'Transfer curve of the stored numbers; auto: as the file states, else sRGB for 8 bits and linear for the rest' -r
 complete -c vextract -l black-level -d 'Stored number for no light; auto: the darkest, if it is the same in all channels and not 0 [default: the RAW file\'s, else 0]' -r
 complete -c vextract -l white-level -d 'Stored number for 1; pixels at or above it count as clipped [default: the RAW file\'s, else 255, 65535 or, for floats, 1]' -r
 complete -c vextract -l white -d 'Photograph of a white sheet with the same framing, to divide by: it corrects uneven light; its mean counts as 1. If both files record exposure time, aperture and sensitivity, and nothing else shows the exposure, the sheet does, as printing paper or --white-reflectance' -r -F
-complete -c vextract -l undo -d 'Undo the camera\'s white balance and colour matrix in an sRGB picture, which the file states' -r
+complete -c vextract -l undo -d 'Undo the camera\'s white balance and colour matrix, stated in this file, in an sRGB picture' -r
 complete -c vextract -l exposure -d 'Value of a perfect white diffuser facing the sun, in its strongest channel, above 0, if known' -r
 complete -c vextract -l chart-grid -d 'Rows and columns of patches of the chart' -r
 complete -c vextract -l chart-cos -d 'Cosine of the angle between the sun and the chart\'s normal, above 0 to 1; 1: the chart faces the sun, unlike the panels' -r
@@ -94,7 +94,7 @@ sony-ilce-7rm4\t''
 sony-ilce-7sm2\t''
 sony-ilce-7sm3\t''
 sony-ilce-9\t''"
-complete -c vextract -l illuminant -d 'Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), a file, or unknown: vestimate finds it [default: by the photograph: the sun\'s at its place and time; unknown for a flash, lamps or night; else D65]' -r -F -a "A\t''
+complete -c vextract -l illuminant -d 'Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), a file, or unknown: vestimate finds it [default: by the photograph: the sun\'s at its place and time; unknown for a flash, lamps or night; else daylight, recorded as D65]' -r -F -a "A\t''
 D50\t''
 D55\t''
 D60\t''

@@ -1,8 +1,8 @@
 complete -c vkernel -l angle-deg -d 'Angle between the two panels, degrees, above 0 to 180 (flat) [default: that of --regions, or 45]' -r
-complete -c vkernel -l panel -d 'Panel size, along the crease x away from it; only the ratio matters [default: that of --regions, or 1x1]' -r
+complete -c vkernel -l panel -d 'Panel size: WIDTH along the crease, DEPTH away from it; only the ratio matters [default: that of --regions, or 1x1]' -r
 complete -c vkernel -l regions -d 'Take angle and panels from the output of vextract --find, - for standard input; other files need the corners of both panels and the picture\'s size' -r -F
 complete -c vkernel -l panel1-depth -d 'Depth of panel 1, in the unit of --panel, if it differs from panel 0\'s' -r
-complete -c vkernel -l facets -d 'Facets per panel, over which colour is averaged: rows away from the crease x columns along it' -r
+complete -c vkernel -l facets -d 'Facets per panel, over which colour is averaged: ROWS away from the crease, COLS along it' -r
 complete -c vkernel -l spacing -d 'Rows of equal depth, or graded: narrow at the crease, where colour varies' -r -f -a "uniform\t'Rows of equal depth'
 graded\t'Row n ends at (n/rows)² of the depth'"
 complete -c vkernel -l method -d 'Method for the form factors: exact to rounding, Monte Carlo as in the paper, or eq. (2) at facet centres, which is far off at the crease; the last two are for comparison' -r -f -a "exact\t'Right to rounding'
@@ -14,7 +14,7 @@ complete -c vkernel -l samples -d 'Samples per form factor (point pairs), or per
 complete -c vkernel -l seed -d 'Seed of the samples [default: 0]' -r
 complete -c vkernel -l mesh -d 'Mesh on which interreflections are solved: auto, as fine as needed; facets, one flat patch per facet (the paper\'s model); ROWS times COLS patches per panel; on a shape, CELLS along each side of a facet [default: auto; facets unless --method is exact]' -r
 complete -c vkernel -l tolerance -d 'Relative error of facet means that --mesh auto may leave, for reflectances up to 1, 1e-12 to 0.1; on shapes and with --light 1e-6 to 0.1, for reflectances up to 0.9, relative to a tenth of the mean for dark facets [default: 1e-5, or the least that a narrow fold allows; on shapes 5e-3, or the least possible]' -r
-complete -c vkernel -l tilt-deg -d 'Angle of the sun off the plane that halves the fold, degrees, less than half of --angle-deg; positive lights panel 0 more' -r
+complete -c vkernel -l tilt-deg -d 'Angle of the sun off the bisecting plane of the fold, degrees, less than half of --angle-deg; positive lights panel 0 more' -r
 complete -c vkernel -l slant-deg -d 'Angle by which the sun leans along the crease, degrees, between -90 and 90' -r
 complete -c vkernel -l sky -d 'Diffuse-to-direct ratio: irradiance by the sky, uniform or of --sky-type, relative to the sun\'s; on an open plane facing the sun, or, for a sky with a horizon, on an open horizontal plane. sun:40deg or sun:LAT,LON,TIME: that of a cloudless sky with the sun there; only: no sun, and a sky of irradiance 1' -r
 complete -c vkernel -l id -d 'Name of the scene' -r

@@ -1,14 +1,14 @@
 complete -c vscore -l condition -d 'Measurement condition of ISO 13655: M2, without ultraviolet, compares what the sheet reflects; M1, under D50, also what it emits by fluorescence. Without fluorescence they are the same' -r -f -a "M1\t'All light that it sends out'
 M2\t'What it reflects'"
 complete -c vscore -l observer -d 'Standard observer of the colour difference, degrees' -r
-complete -c vscore -l metrics -d 'Scores: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]' -r -f -a "rmse\t'Root mean square error'
+complete -c vscore -l metrics -d 'Scores: rmse, ciede2000, pd (1 - gfc), gfc (goodness of fit), angle (spectral, degrees), metamerism (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several illuminants]' -r -f -a "rmse\t'Root mean square error'
 ciede2000\t'Colour difference under each illuminant'
 pd\t'What the paper calls Pearson distance'
 gfc\t'Goodness of fit coefficient'
 angle\t'Spectral angle'
 metamerism\t'From the first illuminant to each other one'"
 complete -c vscore -l by -d 'Also summarise by the value of a field of the samples or their scenes, such as `geometry.angle_deg`' -r
-complete -c vscore -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' colours, flat and folded, and the residuals of a single sheet; for more than seven samples, the distribution of scores and the ten worst; -: spectra on standard error, in characters as wide as the terminal' -r -F
+complete -c vscore -l plot -d 'Draw estimates with their error bands, true spectra, the sheets\' colours, flat and folded, and the residuals of a single sheet; for more than seven samples, the distribution of scores and the ten worst; -: spectra as text on standard error, as wide as the terminal' -r -F
 complete -c vscore -l report -d 'Write an HTML page with all results and the tools\' decisions, for browsers and printers; of many samples it shows the worst 24. Neither this nor --plot needs true spectra' -r -F
 complete -c vscore -l overlay -d 'Picture of what was measured, for --report, as drawn by vextract --overlay; {} in the name stands for the sample\'s; repeated: pictures named after their samples' -r -F
 complete -c vscore -l spectra -d 'Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27' -r -F
@@ -76,7 +76,7 @@ LED-V2\t''
 LCD-R\t''
 LCD-G\t''
 LCD-B\t''"
-complete -c vscore -l truth -d 'True reflectance: one for all samples, or a set with a member of each sample\'s name [default: the samples\' own]' -r -F -a "cc24\t''
+complete -c vscore -l truth -d 'True reflectance: one for all samples, or a set in which each sample has its namesake [default: the samples\' own]' -r -F -a "cc24\t''
 cc24-babelcolor\t''
 cc24-iso17321\t''
 munsell\t''"

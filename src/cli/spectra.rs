@@ -26,7 +26,7 @@ impl Common {
         match spec.trim().parse::<f64>() {
             Ok(number) if !(0.0..=1.0).contains(&number) => {
                 let problem = format!("reflectance {number} is outside 0..1");
-                Err(Error::usage(flag, problem, "give a number within, a name or a file"))
+                Err(Error::usage(flag, problem, "give a number from 0 to 1, a name or a file"))
             }
             _ => one(flag, spec, self.reflectances(spec)?),
         }

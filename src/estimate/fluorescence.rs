@@ -50,7 +50,7 @@ impl Fluorescence {
                 )
             }),
             Origin::Visible => {
-                Some(format!("this sheet fluoresces at about {peak_nm:.0} nm; vfold can't measure it"))
+                Some(format!("this sheet fluoresces at about {peak_nm:.0} nm; vfold cannot measure it"))
             }
         }
     }

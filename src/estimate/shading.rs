@@ -83,8 +83,8 @@ impl<'a> Shading<'a> {
         (mean.abs() > PANELS_APART).then(|| {
             Doubt::new(
                 format!(
-                    "relative to the other, panel {} is {:.1} times as bright as the stated sun makes it: \
-                     a shadow, another light, or a sun far off the middle",
+                    "relative to the other, panel {} is {:.1} times as bright as the stated sun would make \
+                     it: a shadow, another light, or a sun far from the bisecting plane",
                     usize::from(mean < 0.0),
                     mean.abs().exp()
                 ),

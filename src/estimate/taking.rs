@@ -35,11 +35,11 @@ impl Stated {
 impl fmt::Display for Stated {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let scaled =
-            if self.has_one_peak { ", whose channels are each scaled to the same peak," } else { "" };
+            if self.has_one_peak { " (whose channels are each scaled to the same peak)" } else { "" };
         if self.is_daylight_assumed {
-            f.write_str("daylight, which was assumed, and ")?;
+            f.write_str("the light, which was assumed to be daylight, or ")?;
         } else if !self.lights.is_empty() {
-            write!(f, "the light {} and ", self.lights.join(", "))?;
+            write!(f, "the light {} or ", self.lights.join(", "))?;
         }
         write!(f, "the camera {}{scaled}", self.camera)
     }
@@ -120,7 +120,7 @@ fn black(making: &Making) -> Option<Doubt> {
 }
 
 fn open_sides(making: &Making) -> Option<Doubt> {
-    let sides = making.open_sides.join(", ");
+    let sides = making.open_sides.join(" or ");
     (!sides.is_empty()).then(|| {
         Doubt::new(
             format!(

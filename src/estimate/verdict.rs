@@ -148,7 +148,8 @@ pub fn unusual_exposure(estimate: &Estimate, stated: Option<f64>) -> Option<Doub
 #[must_use]
 pub fn unusual_findings(estimate: &Estimate) -> Vec<Doubt> {
     let unusual = estimate.findings.iter().filter(|finding| finding.is_unusual);
-    unusual.map(|finding| Doubt::new(format!("{}, more than usual", finding.what), finding.remedy)).collect()
+    let because = |finding: &Finding| format!("{}, an unusually large deviation", finding.what);
+    unusual.map(|finding| Doubt::new(because(finding), finding.remedy)).collect()
 }
 
 /// Findings about the photograph that an estimate does not allow for, as only those of `fit` were unknown.

@@ -85,7 +85,7 @@ impl Fold {
     ///
     /// # Errors
     /// An angle outside the range; sides that are not positive, outside 1e±100 or more than 1 : 1000 apart;
-    /// no facets, more than 262144 per panel, or a kernel of more than 0.5 GB.
+    /// no facets, more than 262144 per panel, or a kernel of more than 0.54 GB.
     ///
     /// # Example
     /// ```
@@ -123,7 +123,7 @@ impl Fold {
             return Err(Error::usage(
                 "--panel1-depth",
                 format!("{depth} is not the depth of a panel"),
-                "give a number above 0, from a thousandth of panel 0's sides to 1000 times them",
+                "give a depth of 0.001 to 1000 times each side of panel 0",
             ));
         }
         Ok(Self { depths: [self.depths[0], depth], ..self })
@@ -147,7 +147,7 @@ impl Fold {
     /// The same fold with another facet grid.
     ///
     /// # Errors
-    /// No facets, more than 262144 per panel, or a kernel of more than 0.5 GB.
+    /// No facets, more than 262144 per panel, or a kernel of more than 0.54 GB.
     pub fn with_facets(self, facets: FacetGrid) -> Result<Self> {
         check_facets(facets)?;
         Ok(Self { facets, ..self })
@@ -224,7 +224,7 @@ fn check_facets(FacetGrid { rows, cols }: FacetGrid) -> Result<()> {
         return Err(Error::usage(
             "--facets",
             format!("the kernel of {rows}x{cols} facets would take {:.3e} GB", 8e-9 * entries),
-            format!("give ROWSxCOLS, at most {FACETS_MAX} facets a panel and 0.5 GB"),
+            format!("give ROWSxCOLS, at most {FACETS_MAX} facets per panel and 0.538 GB, such as 512x512"),
         ));
     };
     if count == 0 {

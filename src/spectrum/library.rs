@@ -28,7 +28,7 @@ const CAMERAS: [Camera; 3] = [
     Camera {
         name: "canon-5d-mark-ii",
         description: "Canon EOS 5D Mark II, 380..780 nm by 5 \
-                      (rawtoaces: scitech 2017), which its pictures mean",
+                      (rawtoaces: scitech 2017), used for its pictures",
         exif_make: "Canon",
         exif_model: "Canon EOS 5D Mark II",
         channels: || shared!("canon-5d-mark-ii.csv"),

@@ -47,7 +47,7 @@ pub(super) fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
     };
     let remedy = match value {
         ..0.0 => "set negative noise to 0",
-        2.0.. => "rescale it to fractions or percent",
+        2.0.. => "give fractions from 0 to 1, or a file in percent with --percent",
         _ => "leave out fluorescent samples, or rescale wrongly scaled ones",
     };
     Err(bad(spectrum.name(), format!("reflectance {value} is outside 0..1"), remedy))

@@ -360,7 +360,7 @@ impl EstimateRecord {
         let assumed = self.fit.iter().flat_map(Quantities::iter);
         let assumed = assumed.filter(|(_, one)| !is_real && !one.supported);
         let assumed = assumed.map(|(unknown, _)| {
-            format!("the facets do not determine {}; it was left at its prior mean", unknown.name)
+            format!("the facets hardly constrain {}: its value is mostly the prior's", unknown.name)
         });
         warning.into_iter().chain(assumed).collect()
     }

@@ -6,6 +6,7 @@ use std::io::{Read, stdin};
 
 use serde::de::DeserializeOwned;
 
+use super::fields::problem;
 use super::piped::stdin_is_pipe;
 use crate::error::{Error, Result};
 use crate::files::forms::Text;
@@ -27,7 +28,7 @@ pub(super) fn read<T: DeserializeOwned>(path: &str, example: &str) -> Result<T> 
 /// # Errors
 /// As [`read`].
 pub(super) fn parse<T: DeserializeOwned>(path: &str, text: &str, example: &str) -> Result<T> {
-    serde_json::from_str(text).map_err(|error| fault(path, error.line(), &error, example))
+    serde_json::from_str(text).map_err(|error| wrong(path, &error, example))
 }
 
 /// Reads a file of successive JSON values, such as NDJSON; `-` is standard input.
@@ -37,7 +38,7 @@ pub(super) fn parse<T: DeserializeOwned>(path: &str, text: &str, example: &str) 
 pub(super) fn read_all<T: DeserializeOwned>(path: &str, example: &str) -> Result<Vec<T>> {
     let text = text(path, example)?;
     let values = serde_json::Deserializer::from_str(&text).into_iter();
-    values.map(|value| value.map_err(|error| fault(path, error.line(), &error, example))).collect()
+    values.map(|value| value.map_err(|error| wrong(path, &error, example))).collect()
 }
 
 fn text(path: &str, example: &str) -> Result<String> {
@@ -60,6 +61,12 @@ fn text(path: &str, example: &str) -> Result<String> {
         Error::Record { path: path.to_owned(), line: 1, problem, remedy }
     })?;
     if is_unicode { Ok(text) } else { Err(fault(path, 1, "not text in UTF-8", example)) }
+}
+
+fn wrong(path: &str, error: &serde_json::Error, example: &str) -> Error {
+    let problem = format!("{}, column {}", problem(error), error.column());
+    let problem = if error.is_data() { problem } else { format!("not JSON ({problem})") };
+    fault(path, error.line(), problem, example)
 }
 
 fn fault(path: &str, line: usize, problem: impl Display, example: &str) -> Error {

@@ -21,7 +21,7 @@ pub(super) enum LightRecord {
 /// The sun and a uniform sky on a fold.
 #[derive(Serialize, Deserialize, JsonSchema)]
 pub(super) struct SunRecord {
-    /// Angle of the sun off the plane that halves the fold, degrees; above 0 it lights panel 0 more.
+    /// Angle of the sun off the bisecting plane of the fold, degrees; above 0 it lights panel 0 more.
     tilt_deg: f64,
     /// Angle of the sun along the crease, degrees.
     slant_deg: f64,

@@ -138,7 +138,7 @@ fn numbers_are_those_of_the_record() {
     let fitted = table(&page, "Fitted together with the spectrum");
     for (name, words) in [
         ("exposure", "xposure"),
-        ("tilt_deg", "Angle of the sun off the plane that halves the fold, degrees"),
+        ("tilt_deg", "Angle of the sun off the bisecting plane of the fold, degrees"),
     ] {
         let row = fitted.iter().find(|row| row[0].contains(words)).unwrap();
         near(&row[1], &["value", "sd"].map(|part| &estimate["fit"][name][part]));

@@ -148,7 +148,7 @@ fn help_is_coloured_on_a_terminal_alone() {
 fn verdicts_stand_at_the_end() {
     let shown = plain(&on_terminal("", "vestimate samples.ndjson -o out.ndjson").stdout);
     assert!(shown.contains("vestimate: cc24:red: good: model and facets "), "{shown:?}");
-    assert!(shown.contains("the light D65 and the camera canon-5d-mark-ii"), "{shown:?}");
+    assert!(shown.contains("the light D65 or the camera canon-5d-mark-ii"), "{shown:?}");
     let many =
         "vforward scene.json --reflectance munsell --noise-sd 1e-3 2>/dev/null | head -n 40 > many.ndjson";
     let shown = plain(&on_terminal(many, "vestimate many.ndjson -o out.ndjson").stdout);

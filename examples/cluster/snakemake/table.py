@@ -1,4 +1,4 @@
-"""Estimated spectra as a table: a row a photograph, a column a wavelength. python3 table.py FILE... > spectra.csv"""
+"""Estimated spectra as a table: one row per photograph, one column per wavelength. python3 table.py FILE... > spectra.csv"""
 
 import csv
 import json

@@ -85,7 +85,8 @@ impl Transform for Estimator<'_> {
         let lights =
             if scene.is_light_unknown()? { self.lights_before(&scene.camera()?, &grid)? } else { Vec::new() };
         if lights.is_empty() && self.illuminants.is_some() {
-            let line = "--illuminants is not used: the light is stated; --illuminant unknown has it found";
+            let line =
+                "--illuminants is not used: the light is stated; to have it found, give --illuminant unknown";
             self.asked.args.common.say_once("vestimate", line);
         }
         // the scene has the same components in any light
@@ -231,7 +232,7 @@ impl<'a> Estimator<'a> {
         let fits_scene = self.asked.fit.iter().any(|unknown| **unknown != EXPOSURE);
         if !self.asked.args.has_prior() || self.asked.args.join.is_some() || fits_scene {
             let problem = "an unknown light is found only with a prior, for each photograph by itself, \
-                           and with no more fitted than the exposure";
+                           and with nothing but the exposure fitted";
             return Err(Error::usage(
                 "--illuminant",
                 problem,

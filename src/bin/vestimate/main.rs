@@ -101,7 +101,7 @@ struct Args {
     start: Option<String>,
     /// Draw estimates with their error bands, true spectra, the sheets' colours under D65, flat and folded,
     /// and the residuals of a single sheet; for 8 to 60 samples, a small chart each; -: spectra of the
-    /// first seven on standard error, in characters as wide as the terminal
+    /// first seven as text on standard error, as wide as the terminal
     #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing_or_terminal)]
     plot: Option<PathBuf>,
     /// Also write the estimates as a file of spectra: CSV with standard deviations, CGATS, IES TM-27

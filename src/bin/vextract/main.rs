@@ -49,8 +49,8 @@ Examples:
 Without corners the fold is detected. Where detection is uncertain, vextract says what to do
 instead of measuring. A colour chart of 4 x 6 patches, if detected with certainty and facing the
 sun, calibrates the photograph. --find prints the corners of both, with the probability that all
-of them are right, and areas that may be white paper or a card (white_candidates): copy one that
-is to white:
+of them are right, and areas that may be white paper or a card ('white_candidates'; to use one,
+copy it to 'white'):
   vextract --find photo.tif > found.json
   vkernel --angle-deg 50 | vextract photo.tif --regions found.json --camera nikon-d5100
 
@@ -61,7 +61,7 @@ first pixel is at 0.5,0.5. Order:
          of the last row
   white  any four round the card
 
-A chart or card sets the exposure. For each channel it also fits a quadratic polynomial, which
+A chart or card sets the exposure. It also gives each channel a quadratic polynomial, which
 converts pixel values to those that the scene's camera would have recorded. Patches, coefficients
 and residuals are in the record's 'calibration'.
 
@@ -79,7 +79,7 @@ const ILLUMINANT: &str = "\
 Illuminant: a built-in name, daylight:CCT, a black body such as 2856K, the sun of a cloudless day at an \
 angle from the zenith (sun:40deg) or at a place and time (sun:LAT,LON,TIME), a file, or unknown: \
 vestimate finds it [default: by the photograph: the sun's at its place and time; unknown for a flash, \
-lamps or night; else D65]";
+lamps or night; else daylight, recorded as D65]";
 
 /// Measure the facets of a folded sheet in photographs
 #[derive(Parser)]

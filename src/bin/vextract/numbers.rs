@@ -41,7 +41,7 @@ fn clipped(info: &PhotographInfo, facets: &[FacetMeasurement]) -> Option<String>
              as clipped; expose it less"
         )),
         None if left_out > 0 => Some(format!(
-            ": left out for more than 2 % of clipped pixels: {}; expose it less",
+            ": {} left out, because more than 2 % of their pixels are clipped; expose it less",
             counted(left_out, "facet")
         )),
         _ => None,

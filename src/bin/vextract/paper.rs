@@ -30,7 +30,7 @@ pub fn exposure(target: &Target, view: &View, corners: Corners) -> Result<WhiteP
     let patch = target.measure(view, corners)?.swap_remove(0);
     let green = green(view.light, patch.expected.len());
     if patch.measured[green] <= 0.0 {
-        let problem = "white paper: no light is left of it";
+        let problem = "the white region has no light above black";
         return Err(Error::picture(view.path, problem, "check --white-region and --black-level"));
     }
     let exposure = patch.measured[green] / patch.expected[green];

@@ -16,8 +16,8 @@ pub struct PlacingArgs {
     /// Use the corners as marked, without moving them to the edges
     #[arg(long, conflicts_with = "refine")]
     exact_corners: bool,
-    /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in halves of the
-    /// shorter side [default: K1 by the bend of the panels' outer sides, unless corners are exact]
+    /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in units of half the
+    /// shorter side [default: K1 from the bend of the panels' outer sides, unless --exact-corners]
     #[arg(long, value_name = "K1,K2", value_parser = coefficients, allow_hyphen_values = true)]
     distortion: Option<[f64; 2]>,
 }
@@ -117,7 +117,7 @@ pub fn report(refinement: &Refinement, name: &str, verbose: bool, quiet: bool) {
         cli::say("vextract", &format!("{name}: corners moved by {} px{missing}", moved.join(" / ")));
     } else if !quiet && refinement.sides_without_edge.iter().any(|side| !side.starts_with("crease")) {
         let remedy = "check with --overlay";
-        cli::say("vextract", &format!("{name}: no edge at {missing}: left where marked; {remedy}"));
+        cli::say("vextract", &format!("{name}: no edge at {missing}: left as marked; {remedy}"));
     }
 }
 

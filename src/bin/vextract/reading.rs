@@ -28,7 +28,7 @@ pub struct ReadingArgs {
     /// exposure, the sheet does, as printing paper or --white-reflectance
     #[arg(long, value_name = "IMAGE")]
     pub white: Option<PathBuf>,
-    /// Undo the camera's white balance and colour matrix in an sRGB picture, which the file states
+    /// Undo the camera's white balance and colour matrix, stated in this file, in an sRGB picture
     #[arg(long, value_name = "FILE.json")]
     undo: Option<String>,
 }

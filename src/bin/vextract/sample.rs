@@ -92,7 +92,8 @@ impl Setup<'_> {
             sample.set_white_paper(paper)?;
             if !self.args.common.quiet {
                 let line = if self.calibration.is_paper() {
-                    let remedy = "for a card give --white-reflectance, if turned from the sun --white-cos";
+                    let remedy = "if it is a card, give --white-reflectance; \
+                                  if it is turned from the sun, --white-cos";
                     format!("{}: taken for {paper}; {remedy}", path.display())
                 } else {
                     format!("{}: {paper}", path.display())

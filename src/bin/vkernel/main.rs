@@ -39,8 +39,8 @@ struct Args {
     /// Angle between the two panels, degrees, above 0 to 180 (flat) [default: that of --regions, or 45]
     #[arg(long, value_name = "DEG")]
     angle_deg: Option<f64>,
-    /// Panel size, along the crease x away from it; only the ratio matters [default: that of --regions,
-    /// or 1x1]
+    /// Panel size: WIDTH along the crease, DEPTH away from it; only the ratio matters [default: that of
+    /// --regions, or 1x1]
     #[arg(long, value_name = "WIDTHxDEPTH", value_parser = cli::pair::<f64>)]
     panel: Option<(f64, f64)>,
     /// Take angle and panels from the output of vextract --find, - for standard input; other files need
@@ -50,7 +50,7 @@ struct Args {
     /// Depth of panel 1, in the unit of --panel, if it differs from panel 0's
     #[arg(long, value_name = "DEPTH")]
     panel1_depth: Option<f64>,
-    /// Facets per panel, over which colour is averaged: rows away from the crease x columns along it
+    /// Facets per panel, over which colour is averaged: ROWS away from the crease, COLS along it
     #[arg(long, value_name = "ROWSxCOLS", default_value = "10x10", value_parser = cli::pair::<usize>)]
     facets: (usize, usize),
     /// Rows of equal depth, or graded: narrow at the crease, where colour varies
@@ -85,7 +85,7 @@ struct Args {
     /// possible]
     #[arg(long, value_name = "X")]
     tolerance: Option<f64>,
-    /// Angle of the sun off the plane that halves the fold, degrees, less than half of --angle-deg;
+    /// Angle of the sun off the bisecting plane of the fold, degrees, less than half of --angle-deg;
     /// positive lights panel 0 more
     #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     tilt_deg: f64,

@@ -43,7 +43,7 @@ struct Args {
     /// Estimated samples from vestimate [default: standard input]
     #[arg(value_name = "SAMPLES", default_value = "-", hide_default_value = true)]
     samples: String,
-    /// True reflectance: one for all samples, or a set with a member of each sample's name [default: the
+    /// True reflectance: one for all samples, or a set in which each sample has its namesake [default: the
     /// samples' own]
     #[arg(long, value_name = "SPEC")]
     truth: Option<String>,
@@ -58,7 +58,7 @@ struct Args {
     /// Standard observer of the colour difference, degrees
     #[arg(long, value_name = "2|10", default_value = "10", value_parser = observer)]
     observer: Observer,
-    /// Scores: rmse, ciede2000, pd, gfc (goodness of fit), angle (spectral angle, degrees), metamerism
+    /// Scores: rmse, ciede2000, pd (1 - gfc), gfc (goodness of fit), angle (spectral, degrees), metamerism
     /// (special index of CIE 15, by CIEDE2000) [default: rmse,ciede2000,pd, and metamerism under several
     /// illuminants]
     #[arg(long, value_name = "LIST", value_delimiter = ',', hide_possible_values = true,
@@ -74,7 +74,7 @@ struct Args {
     by: Option<String>,
     /// Draw estimates with their error bands, true spectra, the sheets' colours, flat and folded, and the
     /// residuals of a single sheet; for more than seven samples, the distribution of scores and the ten
-    /// worst; -: spectra on standard error, in characters as wide as the terminal
+    /// worst; -: spectra as text on standard error, as wide as the terminal
     #[arg(long, value_name = "FILE.svg|.png|-", value_parser = cli::drawing_or_terminal)]
     plot: Option<PathBuf>,
     /// Write an HTML page with all results and the tools' decisions, for browsers and printers; of many

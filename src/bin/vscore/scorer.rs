@@ -103,7 +103,10 @@ impl<'a> Scorer<'a> {
         };
         let file = self.args.truth.as_deref().unwrap_or_default();
         let count = counted(spectra.len(), "spectrum");
-        let problem = format!("--truth {file} has no '{id}' among its {count}{near}; rename one of them");
+        let problem = format!(
+            "--truth {file} has no '{id}' among its {count}{near}; give one of them as --truth {file}:NAME, \
+             or make the names agree"
+        );
         Error::field("id", problem)
     }
 

@@ -10,7 +10,7 @@ use super::corners;
 use super::day::{Day, DayEstimate};
 use super::family::{Photographs, Seen};
 use super::findings::{of_day, of_unknowns};
-use super::hypotheses::{Hypothesis, dull_days, ideal_hypotheses};
+use super::hypotheses::{Hypothesis, Mistake, dull_days, ideal_hypotheses};
 use super::parts::Parts;
 use super::sorting::{LN_EVIDENCE_HOPELESS, LN_EVIDENCE_NEAR, Tried, sorted};
 use super::whitened::Photograph;
@@ -239,6 +239,8 @@ fn all_findings(
     day: Option<DayEstimate>,
 ) -> Vec<super::Finding> {
     let hypothesis = found.best.start.hypothesis;
+    // an ideal fold under another sky is one of a white sky, whose amount is a finding of its own
+    let day = day.filter(|_| hypothesis.mistake != Some(Mistake::Sky));
     let mut findings: Vec<_> = day.and_then(of_day).into_iter().collect();
     let stated = StatedScene { day: hypothesis.day, ..parts.stated };
     findings.extend(of_unknowns(&seen.fitted, &stated, hypothesis));
@@ -258,7 +260,7 @@ fn skipped(fitted: &[Fitted], searches: usize) -> Vec<Skipped> {
     let unknowns = Skipped {
         what: "unknowns of the scene",
         count: fitted.iter().filter(|one| !one.supported).count(),
-        why: "the facets do not determine them: they stay at their prior means",
+        why: "the facets hardly constrain them: their values are mostly the priors'",
     };
     [searches, unknowns].into_iter().filter(|one| one.count > 0).collect()
 }

@@ -24,7 +24,7 @@ pub static SUN_COLOUR: Unknown = Unknown {
     symptom: Some(Symptom {
         ideal: |stated| stated.daylight.map(|daylight| 1e6 / daylight.mired),
         least: 400.0,
-        words: |_, _| "the fitted sunlight colour is unusual".to_owned(),
+        words: |_, _| "the fitted colour of the sunlight is not as expected".to_owned(),
         remedy: "give vextract --illuminant sun:LAT,LON,TIME, or measure it",
     }),
 };

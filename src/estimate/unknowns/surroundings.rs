@@ -59,7 +59,7 @@ pub static EVEN_SKY: Unknown = Unknown {
             let even_sky = stated.even_sky();
             format!("light from all directions is {value:.2} of the sun's, not {even_sky} as stated")
         },
-        remedy: "state vkernel --sky, or photograph the sheet where little but the sun lights it",
+        remedy: "set vkernel --sky to that value, or photograph the sheet where little but the sun lights it",
     }),
 };
 

@@ -6,9 +6,9 @@ use crate::error::Result;
 /// Angle of the sun off the bisecting plane, degrees.
 pub static TILT: Unknown = Unknown {
     name: "tilt_deg",
-    description: "Angle of the sun off the plane that halves the fold",
+    description: "Angle of the sun off the bisecting plane of the fold",
     unit: Some("degrees"),
-    flag: &Flag { value: "tilt", help: "Angle of the sun off the bisecting plane" },
+    flag: &Flag { value: "tilt", help: "Angle of the sun off the bisecting plane of the fold" },
     scale: Scale::Linear,
     role: Role::Sources { range: f64::NEG_INFINITY..=f64::INFINITY, enter },
     whose: Whose::Fold,
