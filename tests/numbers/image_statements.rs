@@ -175,6 +175,34 @@ fn exif_colour_spaces_are_believed_or_refused() {
     assert!(refused.contains("its ICC profile says linear, its EXIF srgb"), "{refused}");
 }
 
+/// A depth implies a curve only for numbers of that depth.
+#[test]
+fn eight_bits_in_a_deeper_file_need_a_statement() {
+    let folder = tempfile::tempdir().unwrap();
+    let gradient = "--pattern fill:left=.2,.4,.6:right=.9,.1,.3 48x32 3";
+    oiiotool(&folder, &format!("{gradient} -d uint8 -o eight.png"));
+    let eight = open(folder.path().join("eight.png")).unwrap();
+    for (name, how, numbers) in [
+        ("a.tif", "-d uint16", "16-bit numbers"),
+        ("a.png", "-d uint16", "16-bit numbers"),
+        ("half.exr", "-d half", "floats"),
+        ("a.exr", "-d float", "floats"),
+    ] {
+        oiiotool(&folder, &format!("eight.png --attrib oiio:ColorSpace Linear {how} -o {name}"));
+        let path = folder.path().join(name);
+        let refused = refusal(&path);
+        assert!(
+            refused.contains(&format!("its {numbers} are those of 8 bits: it was converted")),
+            "{refused}"
+        );
+        assert!(refused.contains("give the RAW file, or state with --transfer srgb or linear"), "{refused}");
+        let srgb = ReadOptions { transfer: Transfer::Srgb, ..ReadOptions::default() };
+        assert_light(&Photograph::open(&path, &srgb).unwrap(), light(&eight, 1, 1), 5e-4);
+        oiiotool(&folder, &format!("{gradient} {how} -o {name}"));
+        open(&path).unwrap();
+    }
+}
+
 /// `oiiotool` writes what it says with `oiio:ColorSpace`, and needs no more to be believed.
 #[test]
 fn what_oiiotool_converts_is_what_it_was() {

@@ -2,6 +2,7 @@
 
 mod alpha;
 mod decode;
+mod eight_bits;
 mod exif;
 mod exif_taken;
 mod icc;
