@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub use checksum::sha256;
+pub use forms::lines;
 use tempfile::NamedTempFile;
 pub(crate) use together::Together;
 pub use together::keep_complete;

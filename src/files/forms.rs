@@ -1,5 +1,11 @@
 //! The form of a file by its first bytes: text in UTF-8 or UTF-16, or another known format.
 
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use crate::{Error, Result};
+
 /// A form other than text in UTF-8.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
@@ -77,7 +83,7 @@ impl Text {
     ///
     /// # Errors
     /// The form of the file, if it is not text.
-    pub fn decode(bytes: &[u8]) -> Result<Self, Form> {
+    pub fn decode(bytes: &[u8]) -> std::result::Result<Self, Form> {
         if let Some(form) = no_text(bytes) {
             return Err(form);
         }
@@ -91,6 +97,39 @@ impl Text {
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         Ok(Self { text: text.replace("\r\n", "\n").replace('\r', "\n"), is_unicode })
     }
+}
+
+/// The lines of a text in UTF-8 or UTF-16; `-` is standard input.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be read, or is no such text.
+///
+/// # Example
+/// ```
+/// let folder = tempfile::tempdir().unwrap();
+/// let path = folder.path().join("list.txt");
+/// std::fs::write(&path, "\u{feff}a.tif\r\nb.tif\r\n").unwrap();
+/// assert_eq!(vfold::files::lines(&path)?, ["a.tif", "b.tif"]);
+/// # Ok::<(), vfold::Error>(())
+/// ```
+pub fn lines(path: &Path) -> Result<Vec<String>> {
+    let failed = |source| Error::file(path.display(), source);
+    let mut bytes = Vec::new();
+    let mut file: Box<dyn Read> = if path == Path::new("-") {
+        Box::new(io::stdin())
+    } else {
+        Box::new(File::open(path).map_err(failed)?)
+    };
+    file.read_to_end(&mut bytes).map_err(failed)?;
+    let other = |what: String| failed(io::Error::new(io::ErrorKind::InvalidData, what));
+    let Text { text, is_unicode } = Text::decode(&bytes).map_err(|form| {
+        let remedy = form.way_out().map(|remedy| format!("; {remedy}"));
+        other(format!("the file is {}{}", form.name, remedy.unwrap_or_default()))
+    })?;
+    if !is_unicode {
+        return Err(other("not text in UTF-8".to_owned()));
+    }
+    Ok(text.lines().map(str::to_owned).collect())
 }
 
 /// Converts two bytes to a number.

@@ -170,6 +170,7 @@ fn lists_of_photographs() {
         vkernel --facets 1x1 -o scene.json
         printf '\n\n' > empty.txt
         printf '\377\n' > bytes.txt
+        echo photo.tif | gzip > list.txt.gz
         cat > extract <<'END'
         vextract --files-from "$@" --scene scene.json --camera canon-5d-mark-ii --panel0 '0,0 9,0 9,9 0,9'
 END
@@ -179,6 +180,7 @@ END
             case("sh extract - < empty.txt", 2, &["--files-from", "one name per line"]),
             case("sh extract missing.txt", 1, &["missing.txt", "No such file"]),
             case("sh extract bytes.txt", 1, &["bytes.txt", "UTF-8"]),
+            case("sh extract list.txt.gz", 1, &["compressed by gzip; run it through gzip -dc first"]),
             case("sh extract .", 1, &["directory"]),
             case("vextract --files-from - --panel0 '0,0 9,0 9,9 0,9'", 2, &["--files-from", "--scene FILE"]),
             case(

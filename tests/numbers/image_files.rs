@@ -240,6 +240,32 @@ fn a_file_cut_short_anywhere_is_refused() {
     }
 }
 
+/// The decoder takes zeros for what is missing before an end marker, and then grey.
+#[test]
+fn a_jpeg_cut_short_before_its_end_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, how) in [("one.jpg", ""), ("more.jpg", "--attrib:type=int jpeg:progressive 1")] {
+        oiiotool(&folder, &format!("{GRADIENT} --noise {how} -o {name}"));
+        let path = folder.path().join(name);
+        open(&path).unwrap();
+        let bytes = fs::read(path).unwrap();
+        let scan = bytes.windows(2).position(|two| two == [0xff, 0xda]).unwrap();
+        // 14 bytes of a scan's header
+        let (data, rest) = (scan + 14, bytes.len() - 2 - scan - 14);
+        for part in 0..20 {
+            let cut = [&bytes[..data + rest * part / 20], &[0xff, 0xd9]].concat();
+            let refused = refusal(&written(&folder, "cut.jpg", &cut));
+            assert!(
+                refused.ends_with("the JPEG data ends too early; copy the file again"),
+                "{part}: {refused}"
+            );
+        }
+        // another picture in place of the rest
+        refusal(&written(&folder, "two.jpg", &[&bytes[..data + rest / 2], &bytes].concat()));
+        open(written(&folder, "behind.jpg", &[&bytes[..], b"any bytes", &bytes].concat())).unwrap();
+    }
+}
+
 /// A changed byte may spoil the picture but must not stop the program.
 #[test]
 fn changed_bytes_never_panic() {

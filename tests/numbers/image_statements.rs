@@ -1,13 +1,13 @@
 //! What picture files say of their own numbers: believed, or refused.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
 use image::codecs::tiff::TiffEncoder;
 use image::{ExtendedColorType, ImageEncoder};
-use moxcms::{ColorProfile, ToneReprCurve};
+use moxcms::{ColorProfile, ProfileClass, ToneReprCurve};
 use tempfile::TempDir;
 use vfold::image::{Photograph, ReadOptions, Transfer, write_linear};
 
@@ -26,12 +26,7 @@ fn samples(bits: u8) -> Vec<u8> {
 }
 
 /// A file that an encoder makes, with an ICC profile and an EXIF block.
-fn encoded(
-    folder: &TempDir,
-    name: &str,
-    profile: Option<&ColorProfile>,
-    exif: Option<Vec<u8>>,
-) -> std::path::PathBuf {
+fn encoded(folder: &TempDir, name: &str, profile: Option<&ColorProfile>, exif: Option<Vec<u8>>) -> PathBuf {
     fn encode(
         mut encoder: impl ImageEncoder,
         bits: u8,
@@ -66,6 +61,11 @@ fn profile(curve: ToneReprCurve) -> ColorProfile {
 fn icc_profiles_are_believed_or_refused() {
     let folder = tempfile::tempdir().unwrap();
     let straight = profile(ToneReprCurve::Lut(vec![]));
+    let changed = |change: fn(&mut ColorProfile)| {
+        let mut other = straight.clone();
+        change(&mut other);
+        other
+    };
     for (name, tolerance) in [("a.png", 1e-12), ("a.tif", 1e-12), ("a.jpg", 7e-3)] {
         let with = |profile: &ColorProfile| encoded(&folder, name, Some(profile), None);
         assert_light(&open(with(&ColorProfile::new_srgb())).unwrap(), SRGB, tolerance);
@@ -76,6 +76,9 @@ fn icc_profiles_are_believed_or_refused() {
             (ColorProfile::new_pro_photo_rgb(), "curve"),
             (ColorProfile::new_aces_aces_2065_1_linear(), "primaries"),
             (profile(ToneReprCurve::Lut(vec![0x0233])), "curve"),
+            (ColorProfile::new_gray_with_gamma(1.0), "which is for grey numbers"),
+            (changed(|profile| profile.profile_class = ProfileClass::Abstract), "not that of a picture"),
+            (changed(|profile| profile.cicp = ColorProfile::new_srgb().cicp), "code points contradict"),
         ] {
             let path = with(&other);
             let refused = refusal(&path);
@@ -87,22 +90,31 @@ fn icc_profiles_are_believed_or_refused() {
     }
 }
 
+/// A chunk of a PNG file.
+fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
+    let body = [&kind[..], data].concat();
+    [&(data.len() as u32).to_be_bytes()[..], &body, &crc32(&body).to_be_bytes()].concat()
+}
+
+/// A PNG file with chunks before and behind its pixels.
+fn png(folder: &TempDir, before: &[u8], behind: &[u8]) -> PathBuf {
+    const HEADER: usize = 33;
+    const END: usize = 12;
+    let plain = folder.path().join("plain.png");
+    write_linear(&plain, 4, 4, &LINEAR.repeat(16)).unwrap();
+    let plain = fs::read(plain).unwrap();
+    let (head, rest) = plain.split_at(HEADER);
+    let (pixels, end) = rest.split_at(rest.len() - END);
+    written(folder, "chunks.png", &[head, before, pixels, behind, end].concat())
+}
+
 /// Chunk by chunk; numbers are what PNG's specification, third edition, says of them.
 #[test]
 fn png_chunks_are_believed_or_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let plain = folder.path().join("plain.png");
-    write_linear(&plain, 4, 4, &LINEAR.repeat(16)).unwrap();
-    let plain = fs::read(plain).unwrap();
     let with = |chunks: &[(&[u8; 4], &[u8])]| {
-        let mut bytes = plain[..33].to_vec();
-        for (kind, data) in chunks {
-            let body = [&kind[..], data].concat();
-            bytes.extend((data.len() as u32).to_be_bytes());
-            bytes.extend(body.iter().copied().chain(crc32(&body).to_be_bytes()));
-        }
-        bytes.extend(&plain[33..]);
-        written(&folder, "chunks.png", &bytes)
+        let chunks: Vec<u8> = chunks.iter().flat_map(|(kind, data)| chunk(kind, data)).collect();
+        png(&folder, &chunks, &[])
     };
     let gamma = |gamma: u32| gamma.to_be_bytes();
     let corners: Vec<u8> = [31270_u32, 32900, 64000, 33000, 30000, 60000, 15000, 6000]
@@ -140,6 +152,47 @@ fn png_chunks_are_believed_or_refused() {
     }
 }
 
+/// A statement that is damaged, or stands where the decoder of the pixels does not look, is one all the same.
+#[test]
+fn statements_are_found_wherever_they_are_and_whatever_they_are_like() {
+    let folder = tempfile::tempdir().unwrap();
+    let exif = chunk(b"eXIf", &exif(1, None));
+    assert_light(&open(png(&folder, &exif, &[])).unwrap(), SRGB, 1e-12);
+    assert_light(&open(png(&folder, &[], &exif)).unwrap(), SRGB, 1e-12);
+    assert_light(&open(png(&folder, &[], &chunk(b"sRGB", &[0]))).unwrap(), SRGB, 1e-12);
+    let damaged = |mut chunk: Vec<u8>| {
+        *chunk.last_mut().unwrap() ^= 1;
+        chunk
+    };
+    for (chunk, by) in [
+        (damaged(exif), "chunk eXIf"),
+        (damaged(chunk(b"sRGB", &[0])), "chunk sRGB"),
+        (chunk(b"sRGB", &[0, 0]), "chunk sRGB"),
+        (chunk(b"sRGB", &[4]), "chunk sRGB"),
+        (chunk(b"gAMA", &[0, 0, 0x80, 0, 0]), "chunk gAMA"),
+        (chunk(b"cHRM", &[0; 4]), "chunk cHRM"),
+        (chunk(b"cICP", &[9, 16, 0]), "chunk cICP"),
+        (damaged(chunk(b"cICP", &[9, 16, 0, 1])), "chunk cICP"),
+        (chunk(b"iCCP", b"profile\0\0not compressed"), "ICC profile"),
+    ] {
+        for path in [png(&folder, &chunk, &[]), png(&folder, &[], &chunk)] {
+            let refused = refusal(&path);
+            assert!(refused.contains(&format!("its {by} says something that cannot be read; ")), "{refused}");
+            let linear = ReadOptions { transfer: Transfer::Linear, ..ReadOptions::default() };
+            assert_light(&Photograph::open(&path, &linear).unwrap(), LINEAR, 1e-12);
+        }
+    }
+    // the first of two parts alone, or one that no number could have
+    let jpeg = fs::read(encoded(&folder, "a.jpg", Some(&ColorProfile::new_srgb()), None)).unwrap();
+    let at = jpeg.windows(12).position(|window| window == b"ICC_PROFILE\0").unwrap() + 12;
+    for numbers in [[1, 2], [0, 1]] {
+        let mut part = jpeg.clone();
+        part[at..at + 2].copy_from_slice(&numbers);
+        let refused = refusal(&written(&folder, "part.jpg", &part));
+        assert!(refused.contains("its ICC profile says something that cannot be read"), "{refused}");
+    }
+}
+
 /// A little-endian block of an EXIF directory with a colour space, and perhaps one of interoperability.
 fn exif(colour_space: u8, interoperability: Option<&[u8; 4]>) -> Vec<u8> {
     let entry = |tag: u16, kind: u16, count: u32, value: [u8; 4]| {
@@ -173,6 +226,33 @@ fn exif_colour_spaces_are_believed_or_refused() {
     let straight = profile(ToneReprCurve::Lut(vec![]));
     let refused = refusal(&encoded(&folder, "a.png", Some(&straight), Some(exif(1, None))));
     assert!(refused.contains("its ICC profile says linear, its EXIF srgb"), "{refused}");
+}
+
+/// A depth implies a curve only for numbers of that depth.
+#[test]
+fn eight_bits_in_a_deeper_file_need_a_statement() {
+    let folder = tempfile::tempdir().unwrap();
+    let gradient = "--pattern fill:left=.2,.4,.6:right=.9,.1,.3 48x32 3";
+    oiiotool(&folder, &format!("{gradient} -d uint8 -o eight.png"));
+    let eight = open(folder.path().join("eight.png")).unwrap();
+    for (name, how, numbers) in [
+        ("a.tif", "-d uint16", "16-bit numbers"),
+        ("half.exr", "-d half", "floats"),
+        ("a.exr", "-d float", "floats"),
+    ] {
+        oiiotool(&folder, &format!("eight.png --attrib oiio:ColorSpace Linear {how} -o {name}"));
+        let path = folder.path().join(name);
+        let refused = refusal(&path);
+        assert!(
+            refused.contains(&format!("its {numbers} are those of 8 bits: it was converted")),
+            "{refused}"
+        );
+        assert!(refused.contains("give the RAW file, or state with --transfer srgb or linear"), "{refused}");
+        let srgb = ReadOptions { transfer: Transfer::Srgb, ..ReadOptions::default() };
+        assert_light(&Photograph::open(&path, &srgb).unwrap(), light(&eight, 1, 1), 5e-4);
+        oiiotool(&folder, &format!("{gradient} {how} -o {name}"));
+        open(&path).unwrap();
+    }
 }
 
 /// `oiiotool` writes what it says with `oiio:ColorSpace`, and needs no more to be believed.
@@ -302,6 +382,59 @@ fn gamma_of_exif_is_believed_or_refused() {
     );
 }
 
+#[test]
+fn kinds_of_jpeg_that_are_not_read_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let jpeg = fs::read(encoded(&folder, "a.jpg", None, None)).unwrap();
+    let frame = jpeg.windows(2).position(|two| two == [0xff, 0xc0]).unwrap();
+    for (marker, bits, kind) in [
+        (0xc1, 12, "JPEG of 12 bits"),
+        (0xc3, 8, "lossless JPEG"),
+        (0xc9, 8, "JPEG with arithmetic coding"),
+        (0xf7, 8, "JPEG-LS"),
+    ] {
+        let mut other = jpeg.clone();
+        (other[frame + 1], other[frame + 4]) = (marker, bits);
+        let refused = refusal(&written(&folder, "other.jpg", &other));
+        assert!(refused.contains(&format!("this vfold does not read {kind}; save it again")), "{refused}");
+        assert!(!refused.contains("damaged"), "{refused}");
+    }
+}
+
+/// Angles are measured in pixels.
+#[test]
+fn pixels_that_are_not_square_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let assert_shape = |path: &Path, by: &str, aspect: &str| {
+        let refused = refusal(path);
+        let says = format!("by its {by}, its pixels are {aspect} times as wide as high; resample it");
+        assert!(refused.contains(&says), "{refused}");
+    };
+    let size = |across: u32, down: u32| {
+        chunk(b"pHYs", &[&across.to_be_bytes()[..], &down.to_be_bytes(), &[0]].concat())
+    };
+    assert_shape(&png(&folder, &size(1000, 1067), &[]), "chunk pHYs", "1.067");
+    for chunk in [size(2835, 2834), size(0, 5)] {
+        open(png(&folder, &chunk, &[])).unwrap();
+    }
+    for (name, by) in [("a.tif", "XResolution and YResolution"), ("a.exr", "attribute pixelAspectRatio")] {
+        let made = |aspect: &str| {
+            let aspect = format!("--attrib:type=float PixelAspectRatio {aspect}");
+            oiiotool(&folder, &format!("--pattern constant:color=.2,.4,.6 16x9 3 {aspect} -o {name}"));
+            folder.path().join(name)
+        };
+        open(made("1")).unwrap();
+        assert_shape(&made("2"), by, "2");
+    }
+    let mut jpeg = fs::read(encoded(&folder, "a.jpg", None, None)).unwrap();
+    let at = jpeg.windows(5).position(|window| window == b"JFIF\0").unwrap() + 8;
+    for (density, is_square) in [([0, 0, 0, 0], true), ([0, 72, 0, 72], true), ([0, 12, 0, 11], false)] {
+        jpeg[at..at + 4].copy_from_slice(&density);
+        let path = written(&folder, "density.jpg", &jpeg);
+        if is_square { drop(open(path).unwrap()) } else { assert_shape(&path, "JFIF header", "0.917") }
+    }
+}
+
 /// Of 32 bits and more, only floats; of four inks, none.
 #[test]
 fn numbers_that_are_no_light_are_refused() {
@@ -329,4 +462,7 @@ fn pictures_under_the_names_of_raw_files_are_refused() {
         let refused = refusal(&written(&folder, name, &jpeg));
         assert!(refused.contains("like a camera's RAW file, but it is a JPEG picture"), "{refused}");
     }
+    write_linear(&folder.path().join("a.exr"), 1, 1, &LINEAR).unwrap();
+    fs::rename(folder.path().join("a.exr"), folder.path().join("a.nef")).unwrap();
+    assert!(refusal(&folder.path().join("a.nef")).contains("but it is an OpenEXR picture"));
 }

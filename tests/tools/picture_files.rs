@@ -361,6 +361,24 @@ fn another_camera_in_exif_is_said_and_a_doubt() {
     );
 }
 
+/// As programs of Windows write lists, too.
+#[test]
+fn lists_of_photographs_are_in_utf_8_or_utf_16() {
+    let folder = Workdir::new();
+    let run = sh(
+        &folder,
+        r"halves -d uint16 -o a.tif; cp a.tif ä.tif
+        printf 'a.tif\nä.tif\n' > plain.txt
+        printf '\357\273\277a.tif\r\n\r\nä.tif\r\n' > marked.txt
+        iconv -f UTF-8 -t UTF-16 plain.txt > wide.txt
+        for list in plain.txt marked.txt wide.txt; do
+            of_canon --files-from $list | grep -c facet_rgb
+        done
+        of_canon --files-from - < wide.txt | grep -c facet_rgb",
+    );
+    assert_eq!((run.status, run.stdout.as_str()), (0, "2\n2\n2\n2\n"), "{}", run.stderr);
+}
+
 /// No fix, wiped, or blank: like a picture that does not say where or when it was taken.
 #[test]
 fn places_and_times_that_are_none() {

@@ -1,9 +1,8 @@
 //! The photographs to be measured: if too many for a command line, they can be listed in a file.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use vfold::files::lines;
 use vfold::{Error, Result};
 
 use super::Args;
@@ -11,11 +10,12 @@ use super::Args;
 /// Those on the command line, then those in the list.
 ///
 /// # Errors
-/// [`Error::Usage`] if no pictures are named; [`Error::File`] if the list cannot be read.
+/// [`Error::Usage`] if no pictures are named; [`Error::File`] if the list cannot be read, or is no text in
+/// UTF-8 or UTF-16.
 pub fn images(args: &Args) -> Result<Vec<PathBuf>> {
     let mut images = args.images.clone();
     if let Some(list) = &args.files_from {
-        images.extend(names(list).map_err(|e| Error::file(list.display(), e))?);
+        images.extend(names(list)?);
         if images.is_empty() {
             let problem = format!("{} names no photograph", list.display());
             return Err(Error::usage("--files-from", problem, "write one name per line"));
@@ -24,12 +24,6 @@ pub fn images(args: &Args) -> Result<Vec<PathBuf>> {
     Ok(images)
 }
 
-fn names(list: &Path) -> io::Result<Vec<PathBuf>> {
-    let source: Box<dyn Read> = match list.to_str() {
-        Some("-") => Box::new(io::stdin()),
-        _ => Box::new(File::open(list)?),
-    };
-    let names =
-        BufReader::new(source).lines().filter(|name| name.as_ref().map_or(true, |name| !name.is_empty()));
-    names.map(|name| name.map(PathBuf::from)).collect()
+fn names(list: &Path) -> Result<Vec<PathBuf>> {
+    Ok(lines(list)?.into_iter().filter(|name| !name.is_empty()).map(PathBuf::from).collect())
 }

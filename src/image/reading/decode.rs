@@ -11,12 +11,13 @@ use super::jpeg::Jpeg;
 use super::levels::Levels;
 use super::openexr::{self, Kind};
 use super::picture_file::PictureFile;
+use super::png_chunks::Chunks;
 use super::refused::{
     DAMAGED, MAX_BYTES, MAX_SIDE, RESAVE, TOO_LARGE, check_size, inks, one_line, undecodable,
 };
 use super::stated::Statement;
 use super::tiff::Tiff;
-use super::{alpha, icc, openexr_pixels, png_chunks};
+use super::{alpha, icc, jpeg_data, openexr_pixels, pixel_shape};
 use crate::image::photograph::CameraNotes;
 use crate::{Error, Result, room};
 
@@ -66,7 +67,8 @@ pub(super) fn decode(file: &mut PictureFile) -> Result<Decoded> {
     }
     not_named_raw(path, format)?;
     let (pixels, block, mut stated) = foreseen(path, || decode_whole(path, file, length, format))?;
-    let Tags { camera, stated: by_exif } = exif::read(block, 0);
+    let Tags { camera, stated: by_exif, density } = exif::read(block, 0);
+    pixel_shape::check(path, "EXIF resolution", density)?;
     stated.extend(by_exif);
     Ok(Decoded::Picture(Box::new(Picture { format, pixels, camera, stated, levels: None })))
 }
@@ -80,7 +82,7 @@ fn decode_tiff(file: &mut PictureFile, path: &Path, length: u64) -> Result<Decod
     let format = ImageFormat::Tiff;
     not_named_raw(path, format)?;
     let block = exif::tiff_tags(file).map_err(|source| Error::file(path.display(), source))?;
-    let Tags { mut camera, stated: by_exif } = exif::read(Some(block), tiff.page());
+    let Tags { mut camera, stated: by_exif, .. } = exif::read(Some(block), tiff.page());
     camera.notes.extend(tiff.note());
     let mut stated = tiff.statements();
     stated.extend(by_exif);
@@ -123,7 +125,8 @@ fn not_named_raw(path: &Path, format: ImageFormat) -> Result<()> {
     if !is_named_raw(path) {
         return Ok(());
     }
-    let problem = format!("named like a camera's RAW file, but it is a {} picture", name(format));
+    let article = if format == ImageFormat::OpenExr { "an" } else { "a" };
+    let problem = format!("named like a camera's RAW file, but it is {article} {} picture", name(format));
     Err(Error::picture(path, problem, "give the RAW file, or rename the picture"))
 }
 
@@ -164,13 +167,16 @@ fn decode_whole(
     length: u64,
     format: ImageFormat,
 ) -> Result<PictureAndMore> {
-    let mut stated = before_pixels(path, file, format)?;
+    let Header { mut stated, has_profile, exif } = header(path, file, format)?;
     let mut decoder = image_decoder(file, format).map_err(|error| undecodable(path, error))?;
     let (dimensions, bytes) = (decoder.dimensions(), decoder.total_bytes());
     check_size(path, dimensions, bytes, length)?;
     room::ask(bytes, &path.display().to_string(), TOO_LARGE)?;
-    stated.extend(decoder.icc_profile().ok().flatten().map(|profile| icc::statement(&profile)));
-    let block = decoder.exif_metadata().ok().flatten();
+    stated.extend(match decoder.icc_profile().ok().flatten() {
+        Some(profile) => Some(icc::statement(&profile, decoder.color_type().has_color())),
+        None => has_profile.then(icc::unreadable),
+    });
+    let exif = exif.or_else(|| decoder.exif_metadata().ok().flatten());
     let has_alpha = decoder.color_type().has_alpha();
     drop(decoder);
     file.rewind().map_err(|source| Error::file(path.display(), source))?;
@@ -188,10 +194,14 @@ fn decode_whole(
             picture.map_err(|error| undecodable(path, error))?
         }
     };
-    if format == ImageFormat::OpenExr {
-        alpha::divide(path, &mut picture)?;
+    match format {
+        ImageFormat::OpenExr => alpha::divide(path, &mut picture)?,
+        ImageFormat::Jpeg if !jpeg_data::are_whole(&whole(path, file)?, &picture) => {
+            return Err(ends_too_early(path));
+        }
+        _ => {}
     }
-    Ok((picture, block, stated))
+    Ok((picture, exif, stated))
 }
 
 /// The decoder of a file, starting at its beginning.
@@ -202,29 +212,56 @@ fn image_decoder(file: &mut PictureFile, format: ImageFormat) -> ImageResult<imp
     reader.into_decoder()
 }
 
-/// A file's statements on its numbers that decoders omit or misinterpret.
-fn before_pixels(path: &Path, file: &mut PictureFile, format: ImageFormat) -> Result<Vec<Statement>> {
+/// What a file states besides its pixels, as far as decoders omit or misinterpret it.
+#[derive(Default)]
+struct Header {
+    stated: Vec<Statement>,
+    /// Whether it has an ICC profile, readable or not.
+    has_profile: bool,
+    exif: Option<Vec<u8>>,
+}
+
+fn header(path: &Path, file: &mut PictureFile, format: ImageFormat) -> Result<Header> {
     match format {
-        ImageFormat::Png => Ok(png_chunks::statements(file)),
+        ImageFormat::Png => {
+            let chunks = Chunks::read(file);
+            pixel_shape::check(path, "chunk pHYs", chunks.density())?;
+            let (stated, has_profile) = (chunks.statements(), chunks.has_profile());
+            Ok(Header { stated, has_profile, exif: chunks.exif() })
+        }
         ImageFormat::OpenExr => match openexr::kind(file) {
-            Some(Kind::Colours(stated)) => Ok(stated),
+            Some(Kind::Colours(stated)) => Ok(Header { stated, ..Header::default() }),
             Some(Kind::Other { is, remedy }) => Err(Error::picture(path, is, remedy)),
-            None => Ok(Vec::new()),
+            None => Ok(Header::default()),
         },
         ImageFormat::Jpeg => {
-            let mut bytes = Vec::new();
-            file.read_to_end(&mut bytes).map_err(|source| Error::file(path.display(), source))?;
+            let bytes = whole(path, file)?;
             let jpeg = Jpeg(&bytes);
+            if let Some(kind) = jpeg.frame().and_then(|frame| frame.other_kind()) {
+                return Err(Error::picture(path, format!("this vfold does not read {kind}"), RESAVE));
+            }
+            pixel_shape::check(path, "JFIF header", jpeg.density())?;
             match jpeg.components() {
                 Some(4) => Err(inks(path)),
-                Some(_) if !jpeg.is_complete() => {
-                    Err(Error::picture(path, "the JPEG data ends too early", "copy the file again"))
-                }
-                _ => Ok(Vec::new()),
+                Some(_) if !jpeg.is_complete() => Err(ends_too_early(path)),
+                _ => Ok(Header { has_profile: jpeg.has_profile(), ..Header::default() }),
             }
         }
-        _ => Ok(Vec::new()),
+        _ => Ok(Header::default()),
     }
+}
+
+/// All of a file's bytes.
+fn whole(path: &Path, file: &mut PictureFile) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.rewind()
+        .and_then(|()| file.read_to_end(&mut bytes))
+        .map_err(|source| Error::file(path.display(), source))?;
+    Ok(bytes)
+}
+
+fn ends_too_early(path: &Path) -> Error {
+    Error::picture(path, "the JPEG data ends too early", "copy the file again")
 }
 
 fn limits() -> Limits {

@@ -45,6 +45,8 @@ pub(super) struct Tags {
     pub camera: CameraNotes,
     /// Colour space and curve of the picture's numbers.
     pub stated: Vec<Statement>,
+    /// Pixels per unit of length, across and down.
+    pub density: Option<[f64; 2]>,
 }
 
 /// Reads an EXIF block, which has the layout of a TIFF file; a TIFF file is its own block, and its picture
@@ -72,8 +74,11 @@ pub(super) fn read(block: Option<Vec<u8>>, page: usize) -> Tags {
         taken: exif.as_ref().map(taken).unwrap_or_default(),
         notes,
     };
+    let density = |tag| field(tag).and_then(positive);
+    let density = density(Tag::XResolution).zip(density(Tag::YResolution)).map(<[f64; 2]>::from);
     Tags {
         camera,
+        density,
         stated: exif.iter().flat_map(|exif| [colour_space(exif), gamma(exif)]).flatten().collect(),
     }
 }

@@ -1,8 +1,9 @@
 //! ICC profiles in PNG, TIFF and JPEG files.
 
-use moxcms::{ColorProfile, DataColorSpace, ProfileText, ToneReprCurve, Xyzd};
+use moxcms::{CicpProfile, ColorProfile, DataColorSpace, ProfileClass, ProfileText, ToneReprCurve, Xyzd};
 
-use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement, curve_like};
+use super::code_points;
+use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement, UNREADABLE, curve_like};
 use crate::image::numbers::Transfer;
 
 /// Largest difference, in XYZ under D50, between equal primaries: writers round them in various ways.
@@ -14,19 +15,67 @@ const SAME_PRIMARY: f64 = 3e-3;
 const SRGB_PRIMARIES: [[f64; 3]; 3] =
     [[0.43607, 0.22249, 0.01392], [0.38515, 0.71687, 0.09708], [0.14307, 0.06061, 0.71410]];
 
-/// A profile's statement on a picture's numbers.
-pub(super) fn statement(profile: &[u8]) -> Statement {
-    match ColorProfile::new_from_slice(profile) {
-        Ok(profile) => of_profile(meaning(&profile).map_err(|why| format!("'{}', {why}", name(&profile)))),
-        Err(_) => of_profile(Err("something that cannot be read".to_owned())),
+/// Colour tables, which outrank curves: a profile with both has them since they differ.
+const TABLES: [[u8; 4]; 7] = [*b"A2B0", *b"A2B1", *b"A2B2", *b"D2B0", *b"D2B1", *b"D2B2", *b"D2B3"];
+
+/// A profile's statement on the numbers of a picture in colour or grey.
+pub(super) fn statement(bytes: &[u8], is_in_colour: bool) -> Statement {
+    match ColorProfile::new_from_slice(bytes) {
+        Ok(profile) => {
+            let meaning = objection(bytes, &profile, is_in_colour).map_or_else(|| meaning(&profile), Err);
+            of_profile(meaning.map_err(|why| format!("'{}', {why}", name(&profile))))
+        }
+        Err(_) => unreadable(),
     }
+}
+
+/// The statement of a profile that is damaged.
+pub(super) fn unreadable() -> Statement {
+    of_profile(Err(UNREADABLE.to_owned()))
 }
 
 fn of_profile(says: Result<Transfer, String>) -> Statement {
     Statement { by: "ICC profile", says }
 }
 
+/// Why a profile is none of a picture like this, or says it elsewhere than in its curves. One of RGB fits grey
+/// numbers, too: these are three equal ones.
+fn objection(bytes: &[u8], profile: &ColorProfile, is_in_colour: bool) -> Option<&'static str> {
+    use ProfileClass::{ColorSpace, DisplayDevice, InputDevice, OutputDevice};
+    if !matches!(profile.profile_class, InputDevice | DisplayDevice | OutputDevice | ColorSpace) {
+        return Some("which is not that of a picture");
+    }
+    if is_in_colour && profile.color_space == DataColorSpace::Gray {
+        return Some("which is for grey numbers");
+    }
+    tags(bytes).any(|tag| TABLES.contains(&tag)).then_some("whose colour table outranks its curve")
+}
+
+/// The tags of a profile.
+fn tags(bytes: &[u8]) -> impl Iterator<Item = [u8; 4]> {
+    /// Header and number of tags.
+    const BEFORE_TAGS: usize = 132;
+    const ENTRY_BYTES: usize = 12;
+    let count =
+        bytes.get(..BEFORE_TAGS).and_then(|head| head.last_chunk().copied()).map_or(0, u32::from_be_bytes);
+    let entries = bytes.get(BEFORE_TAGS..).unwrap_or_default().chunks_exact(ENTRY_BYTES).take(count as usize);
+    entries.filter_map(|entry| entry.first_chunk().copied())
+}
+
 fn meaning(profile: &ColorProfile) -> Result<Transfer, &'static str> {
+    let curve = of_curves(profile)?;
+    match &profile.cicp {
+        Some(points) if of_points(points) != Ok(curve) => Err("whose code points contradict its curve"),
+        _ => Ok(curve),
+    }
+}
+
+/// The meaning of code points; matrix and range are those of video, and writers state any.
+fn of_points(points: &CicpProfile) -> Result<Transfer, String> {
+    code_points::transfer([points.color_primaries as u8, points.transfer_characteristics as u8, 0], true)
+}
+
+fn of_curves(profile: &ColorProfile) -> Result<Transfer, &'static str> {
     match profile.color_space {
         DataColorSpace::Gray => curve(profile.gray_trc.as_ref()),
         DataColorSpace::Rgb => {
@@ -71,13 +120,14 @@ mod tests {
     use super::*;
 
     fn of(profile: ColorProfile) -> Result<Transfer, String> {
-        statement(&profile.encode().unwrap()).says
+        statement(&profile.encode().unwrap(), profile.color_space == DataColorSpace::Rgb).says
     }
 
     #[test]
     fn profiles_say_linear_srgb_or_something_else() {
         assert_eq!(of(ColorProfile::new_srgb()), Ok(Transfer::Srgb));
         let mut linear = ColorProfile::new_srgb();
+        linear.cicp = None;
         let straight = Some(ToneReprCurve::Lut(Vec::new()));
         (linear.red_trc, linear.green_trc) = (straight.clone(), straight.clone());
         assert!(of(linear.clone()).unwrap_err().contains("curve"), "blue is not straight yet");
@@ -91,7 +141,15 @@ mod tests {
     }
 
     #[test]
+    fn tables_outrank_curves() {
+        let bytes = ColorProfile::new_srgb().encode().unwrap();
+        let at = bytes.windows(4).position(|tag| tag == b"wtpt").unwrap();
+        let with_table = [&bytes[..at], b"D2B1", &bytes[at + 4..]].concat();
+        assert!(statement(&with_table, true).says.unwrap_err().contains("table outranks its curve"));
+    }
+
+    #[test]
     fn what_is_no_profile_is_said() {
-        assert!(statement(b"no profile").says.unwrap_err().contains("cannot be read"));
+        assert!(statement(b"no profile", true).says.unwrap_err().contains("cannot be read"));
     }
 }

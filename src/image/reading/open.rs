@@ -6,7 +6,7 @@ use image::ImageFormat;
 
 use super::decode::{Decoded, Picture, decode, name};
 use super::picture_file::PictureFile;
-use super::{raw, stated};
+use super::{eight_bits, raw, stated};
 use crate::image::numbers::{ReadOptions, Scale, Transfer};
 use crate::image::photograph::{Interleaved, Photograph, PhotographInfo};
 use crate::{Error, Result};
@@ -17,7 +17,8 @@ impl Photograph {
     ///
     /// The content, not the name, determines the format; a picture named like a RAW file is refused. Where
     /// [`Transfer::Auto`] is requested, the file's statements on its numbers (ICC profile, EXIF colour space,
-    /// PNG's chunks, OpenEXR's chromaticities) determine the curve. Alpha is dropped, except that fully
+    /// PNG's chunks, OpenEXR's chromaticities) determine the curve, or else its depth: then numbers of eight
+    /// bits in a deeper file are refused. Alpha is dropped, except that fully
     /// transparent pixels count as missing, and that colours stored multiplied by it are divided again. The
     /// picture is turned upright by its EXIF orientation. At most 2 GiB when decoded and 65536 px per side.
     ///
@@ -94,12 +95,16 @@ impl Photograph {
     }
 }
 
-/// The requested curve, or else the one that the file states.
+/// The requested curve, or else the one that the file states, or else the one that its depth implies.
 fn transfer(path: &Path, picture: &Picture, options: &ReadOptions) -> Result<Transfer> {
-    match options.transfer {
-        Transfer::Auto => Ok(stated::curve(path, &picture.stated)?.unwrap_or_default()),
-        other => Ok(other),
+    if options.transfer != Transfer::Auto {
+        return Ok(options.transfer);
     }
+    if let Some(stated) = stated::curve(path, &picture.stated)? {
+        return Ok(stated);
+    }
+    eight_bits::refuse(path, &picture.pixels)?;
+    Ok(Transfer::Auto)
 }
 
 fn describe(format: ImageFormat, bits: u32, colour: bool) -> String {

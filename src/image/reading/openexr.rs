@@ -7,6 +7,7 @@ use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, SampleType};
 use exr::meta::header::Header;
 
+use super::pixel_shape::{self, RESAMPLE};
 use super::primaries::are_srgb;
 use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
 use crate::image::numbers::Transfer;
@@ -58,6 +59,10 @@ fn not_read(header: &Header) -> Option<(String, &'static str)> {
     {
         let is = format!("a picture of several views: {first}, {}", others.join(", "));
         return Some((is, "save the intended view alone, as R, G and B"));
+    }
+    let aspect = header.shared_attributes.pixel_aspect;
+    if let Some(is) = pixel_shape::objection("attribute pixelAspectRatio", aspect.into()) {
+        return Some((is, RESAMPLE));
     }
     if !is_filled(header) {
         let is = "a picture whose data window leaves part of its display window empty".to_owned();

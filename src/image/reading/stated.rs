@@ -22,6 +22,8 @@ pub(super) struct Statement {
 pub(super) const OTHER_CURVE: &str = "whose curve is neither linear nor sRGB's";
 /// Objection to colours: a matrix that the file does not contain computed them from a camera's.
 pub(super) const OTHER_COLOURS: &str = "whose primaries are not sRGB's";
+/// What a statement says that is damaged, or not of its kind.
+pub(super) const UNREADABLE: &str = "something that cannot be read";
 
 /// Largest difference between equal curves: gamma 2.2 is 0.009 from sRGB's, tables of it with a few rows
 /// 0.001.

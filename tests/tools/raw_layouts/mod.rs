@@ -470,6 +470,21 @@ fn what_is_not_read_is_said_to_be_that() {
     let eight_bits = lossless_jpeg::encode([WIDTH, HEIGHT, 1, 8], &vec![99; WIDTH * HEIGHT]);
     let tags = [vec![(259, Short(vec![7]))], pieces(STRIPS, vec![eight_bits])].concat();
     assert!(refusal(&changed(tags)).contains("lossless JPEG of 8 bits"));
+    let floats =
+        vec![(258, Short(vec![32])), (259, Short(vec![8])), (317, Short(vec![3])), (339, Short(vec![3]))];
+    let strips = [40, 20].map(|rows| stored(vec![0; rows * WIDTH * 4])).to_vec();
+    let tags = [floats, vec![(278, Long(vec![40]))], pieces(STRIPS, strips)].concat();
+    assert!(refusal(&changed(tags)).contains("Deflate whose last strip has fewer rows than the others"));
+    let wide = vec![(50718, Rational(vec![[2, 1], [1, 1]]))];
+    assert!(refusal(&changed(wide)).contains("by its DefaultScale, its pixels are 2 times as wide as high"));
+    let full =
+        [picture([WIDTH, HEIGHT], 16, 1, 1, 1), pieces(STRIPS, vec![packed(&numbers, 16, false)])].concat();
+    let small = with(picture([1, 1], 8, 1, 1, 1), vec![(254, Long(vec![1]))]);
+    let both =
+        [small, vec![(SUB_DIRECTORIES, Directories(vec![full]))], pieces(STRIPS, vec![vec![0]])].concat();
+    let message = refusal(&tiff(both, false));
+    assert!(message.contains("keeps its full picture in a sub-directory (SubIFD)"), "{message}");
+    assert!(!message.contains("damaged"), "{message}");
     let cut = vec![(279, Long(vec![1 << 20]))];
     assert!(refusal(&changed(cut)).contains("not all in the file"));
     let levels = vec![(50714, Short(vec![1, 2, 3]))];

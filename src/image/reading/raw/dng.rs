@@ -17,6 +17,7 @@ use super::opcodes::Opcodes;
 use super::refused::{ELSEWHERE, damaged, unread};
 use super::tiff_directories::{Directory, Tiff};
 use crate::image::photograph::Mosaic;
+use crate::image::reading::pixel_shape;
 use crate::image::reading::tiff::tags::{DNG_VERSION, NEW_SUBFILE_TYPE, PHOTOMETRIC};
 use crate::{Error, Result};
 
@@ -44,6 +45,8 @@ const FILTERS: [u16; 2] = [33421, 33422];
 /// The oldest version whose readers can read the file.
 const BACKWARD_VERSION: u16 = 50707;
 const LINEARIZATION: u16 = 50712;
+/// Factors across and down that make pixels square.
+const DEFAULT_SCALE: u16 = 50718;
 /// Origin and size.
 const CROP: [u16; 2] = [50719, 50720];
 const ACTIVE_AREA: u16 = 50829;
@@ -72,6 +75,11 @@ impl Dng {
         }
         let directory = sensor(path, &directories)?;
         let layout = Layout::read(path, tiff, directory)?;
+        if let Some([across, down]) = directory.numbers(DEFAULT_SCALE).as_deref()
+            && let Some(problem) = pixel_shape::objection("DefaultScale", across / down)
+        {
+            return Err(Error::picture(path, problem, "convert it to linear TIFF of square pixels"));
+        }
         let active = active_area(path, directory, layout.size)?;
         let area = crop(path, directory, active, layout.size)?;
         let mosaic = if number(directory, PHOTOMETRIC) == Some(MOSAIC) {

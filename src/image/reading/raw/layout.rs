@@ -177,6 +177,13 @@ impl Layout {
             if self.compression == UNCOMPRESSED && rows * row_bits / 8 > *length {
                 return Err(damaged(path, "its numbers are not all in the file"));
             }
+            // it takes all strips for whole ones
+            if self.compression == DEFLATE && rows != segments.size.h {
+                return Err(unread(
+                    path,
+                    "compressed by Deflate whose last strip has fewer rows than the others",
+                ));
+            }
             if self.compression == LOSSLESS_JPEG {
                 self.check_jpeg(path, bytes, rows)?;
             }

@@ -9,7 +9,6 @@ mod sensor;
 mod taken;
 mod tiff_directories;
 
-use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -31,7 +30,7 @@ use crate::image::numbers::{ReadOptions, Transfer};
 use crate::image::photograph::{CameraNotes, Orientation, Photograph};
 use crate::{Error, Result};
 
-/// The same if a decoder gives no reason for failing.
+/// Remedy if a decoder gives no reason that says which.
 const UNREAD_OR_DAMAGED: &str = "this vfold does not read files of this kind, or the file is damaged: \
                                  copy it again, or convert it to linear TIFF";
 
@@ -65,12 +64,9 @@ struct Decoded {
     exif: Exif,
 }
 
-/// Decodes a file. Decoders panic on some files, which is reported like their other errors.
+/// Decodes a file. Decoders panic on some files, which is reported like their other errors, but without the
+/// words, which are a programmer's.
 fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
-    let failed = |message: &str| {
-        let problem = format!("its decoder failed: {}", one_line(message));
-        Error::picture(path, problem, UNREAD_OR_DAMAGED)
-    };
     let source = RawSource::new_from_shared_vec(Arc::new(bytes)).with_path(path);
     let decode = || -> std::result::Result<Decoded, RawlerError> {
         let (decoder, parameters) = (rawler::get_decoder(&source)?, RawDecodeParams::default());
@@ -79,15 +75,8 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
         Ok(Decoded { image, exif })
     };
     let decoded = without_panic_messages(|| panic::catch_unwind(AssertUnwindSafe(decode)))
-        .map_err(|payload| failed(panic_message(payload.as_ref())))?
-        .map_err(|error| match error {
-            RawlerError::Unsupported { what, model, make, mode } => {
-                let problem =
-                    one_line(&format!("this vfold does not read it: {what}: {make} {model} {mode}"));
-                Error::picture(path, problem, "convert the file to DNG or linear TIFF")
-            }
-            RawlerError::DecoderFailed(message) => failed(&message),
-        })?;
+        .map_err(|_| Error::picture(path, "its decoder failed", UNREAD_OR_DAMAGED))?
+        .map_err(|error| undecodable(path, error))?;
     let RawImage { width, height, cpp, data, .. } = &decoded.image;
     let samples = match data {
         RawImageData::Integer(data) => data.len(),
@@ -98,6 +87,26 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded> {
         return Err(damaged(path, format!("{samples} numbers do not fill {width} x {height} px")));
     }
     Ok(decoded)
+}
+
+fn undecodable(path: &Path, error: RawlerError) -> Error {
+    match error {
+        // no file of a known camera, wherever it names itself
+        RawlerError::Unsupported { make, model, .. } if make.is_empty() && model.is_empty() => {
+            let problem = "it names no camera whose RAW files this vfold reads; a TIFF that begins like this \
+                           keeps its full picture in a sub-directory (SubIFD) of a small one";
+            let remedy = "convert a RAW file to DNG or linear TIFF; of a TIFF, save the full picture alone";
+            Error::picture(path, problem, remedy)
+        }
+        RawlerError::Unsupported { what, model, make, mode } => {
+            let problem = one_line(&format!("this vfold does not read it: {what}: {make} {model} {mode}"));
+            Error::picture(path, problem, "convert the file to DNG or linear TIFF")
+        }
+        RawlerError::DecoderFailed(message) => {
+            let problem = format!("its decoder failed: {}", one_line(&message));
+            Error::picture(path, problem, UNREAD_OR_DAMAGED)
+        }
+    }
 }
 
 /// Suppresses the messages of panics, which are printed even if they are caught, while any thread decodes a
@@ -117,11 +126,6 @@ fn without_panic_messages<T>(work: impl FnOnce() -> T) -> T {
     let done = work();
     QUIET.fetch_sub(1, Ordering::Relaxed);
     done
-}
-
-fn panic_message(payload: &(dyn Any + Send)) -> &str {
-    let text = payload.downcast_ref::<String>().map(String::as_str);
-    text.or_else(|| payload.downcast_ref::<&str>().copied()).unwrap_or("the decoder gave up")
 }
 
 /// The rows of a 3 x 3 matrix; none for other sizes.

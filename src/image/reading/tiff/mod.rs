@@ -23,8 +23,10 @@ use image::DynamicImage;
 use self::layout::Layout;
 use self::pages::Pages;
 use self::pixels::Pixels;
+use self::tags::{X_RESOLUTION, Y_RESOLUTION};
 use super::alpha;
 use super::levels::Levels;
+use super::pixel_shape;
 use super::refused::{TOO_LARGE, check_size, undecodable};
 use super::stated::Statement;
 use crate::{Result, room};
@@ -67,12 +69,19 @@ impl Tiff {
         levels::levels(self.pages.directory())
     }
 
+    /// Pixels of the selected page per unit of length, across and down.
+    fn density(&self) -> Option<[f64; 2]> {
+        let first = |tag| self.pages.directory().reals(tag)?.first().copied();
+        Some([first(X_RESOLUTION)?, first(Y_RESOLUTION)?])
+    }
+
     /// The pixels of the selected page.
     ///
     /// # Errors
     /// [`Error::Picture`] with the reason if they cannot be read.
     pub fn pixels(&self, path: &Path, file: &mut (impl BufRead + Seek)) -> Result<DynamicImage> {
         self.pages.check(path)?;
+        pixel_shape::check(path, "XResolution and YResolution", self.density())?;
         let layout = Layout::of(path, self.pages.directory(), self.length)?;
         let bytes = layout.bytes();
         check_size(path, (layout.width, layout.height), layout.stored_bytes(), self.length)?;

@@ -1,7 +1,7 @@
 //! Statements of a directory on its page's numbers.
 
 use super::directory::Directory;
-use super::tags::{PRIMARIES, PROFILE, TRANSFER_FUNCTION, WHITE_POINT};
+use super::tags::{PHOTOMETRIC, PRIMARIES, PROFILE, TRANSFER_FUNCTION, WHITE_POINT};
 use crate::image::numbers::Transfer;
 use crate::image::reading::icc;
 use crate::image::reading::primaries::{SRGB, are_srgb};
@@ -9,7 +9,8 @@ use crate::image::reading::stated::{OTHER_COLOURS, OTHER_CURVE, Statement, curve
 
 /// ICC profile, curve and primaries.
 pub(super) fn statements(page: &Directory) -> Vec<Statement> {
-    let profile = page.bytes(PROFILE).map(icc::statement);
+    let is_grey = matches!(page.number(PHOTOMETRIC), Some(0 | 1));
+    let profile = page.bytes(PROFILE).map(|profile| icc::statement(profile, !is_grey));
     let curve = page.has(TRANSFER_FUNCTION).then(|| Statement {
         by: "TransferFunction",
         says: transfer(page).ok_or_else(|| format!("something {OTHER_CURVE}")),
