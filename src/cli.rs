@@ -14,7 +14,7 @@ use std::num::NonZero;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, ValueEnum};
+use clap::{Args, Parser};
 
 pub use kernel::KernelArgs;
 pub use materials::MaterialArgs;
@@ -57,7 +57,7 @@ pub struct Common {
     /// Show on standard error the samples done, the rate and the time left; auto: on a terminal, when the
     /// records go to a file
     #[arg(long, value_name = "WHEN", default_value = "auto")]
-    pub progress: ProgressWhen,
+    pub progress: When,
     /// Also write a field of the records as an NPY array, samples stacked
     #[arg(long, value_name = "FIELD=FILE", value_parser = field_and_file)]
     pub save: Vec<(String, PathBuf)>,
@@ -69,7 +69,7 @@ pub struct Common {
     pub generate: Option<Generate>,
     /// Print the built-in spectra of a kind, and your own in the directory VFOLD_DATA
     #[arg(long, value_name = "WHAT")]
-    pub list: Option<ListWhat>,
+    pub list: Option<What>,
     /// Read files of reflectances without a stated unit as percent, or, with --percent=no, as fractions
     /// [default: as percent if a value is above 2]
     #[arg(long, value_name = "yes|no", num_args = 0..=1, require_equals = true, default_missing_value = "yes",
@@ -79,54 +79,25 @@ pub struct Common {
     notes: Notes,
 }
 
-/// What `--progress` takes.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ProgressWhen {
-    /// On a terminal, when the records go to a file.
-    Auto,
-    /// Always.
-    Always,
-    /// Never.
-    Never,
-}
-
-/// What `--list` prints.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ListWhat {
-    /// Camera sensitivities.
-    Cameras,
-    /// Illuminants.
-    Illuminants,
-    /// Reflectances and sets of them.
-    Reflectances,
-}
-
 impl Common {
     /// When to show progress: `--quiet` means never.
     fn when(&self) -> When {
-        match self.progress {
-            _ if self.quiet => When::Never,
-            ProgressWhen::Auto => When::Auto,
-            ProgressWhen::Always => When::Always,
-            ProgressWhen::Never => When::Never,
-        }
+        if self.quiet { When::Never } else { self.progress }
     }
 }
 
-/// A tool's arguments.
-pub trait ToolArgs: Parser {
-    /// The flags common to all tools.
-    fn common(&self) -> &Common;
-}
-
-/// Runs one tool and turns its outcome into an exit status.
+/// Runs one tool and turns its outcome into an exit status; `common` are those of its flags that all tools
+/// have.
 ///
 /// 0: done, or the reader closed the pipe. 1: stopped by bad data or I/O. 2: wrong usage. 3: finished, but
 /// some records carry an `error`; standard error states how many, and the first reason. An [empty
 /// pipe](Error::EmptyPipe) causes no message.
-pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> ExitCode {
+pub fn run<A: Parser>(
+    common: fn(&A) -> &Common,
+    tool: impl FnOnce(&A, &mut Output) -> Result<()>,
+) -> ExitCode {
     let done = match parsed::<A>() {
-        Ok(args) => without_panic(|| frame(&args, tool)),
+        Ok(args) => without_panic(|| frame(common(&args), A::command(), |out| tool(&args, out))),
         Err(help) if !help.use_stderr() => help.print().map(|()| Failures::default()).map_err(Error::Output),
         Err(error) => {
             let name = A::command().get_name().to_owned();
@@ -152,7 +123,7 @@ pub fn run<A: ToolArgs>(tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Exi
 
 /// The tool's arguments. A negative number is the value of the flag before it, which refuses it in its own
 /// words, and no flag itself.
-fn parsed<A: ToolArgs>() -> std::result::Result<A, clap::Error> {
+fn parsed<A: Parser>() -> std::result::Result<A, clap::Error> {
     let with_negative = |arg: clap::Arg| {
         let takes_value = arg.get_action().takes_values() && !arg.is_positional();
         if takes_value { arg.allow_negative_numbers(true) } else { arg }
@@ -163,8 +134,12 @@ fn parsed<A: ToolArgs>() -> std::result::Result<A, clap::Error> {
 
 /// Runs the tool between opening and finishing its output; returns the samples that carry an error. No file
 /// appears before all of the run's outputs are complete.
-fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>) -> Result<Failures> {
-    let common = args.common();
+fn frame(
+    common: &Common,
+    command: clap::Command,
+    tool: impl FnOnce(&mut Output) -> Result<()>,
+) -> Result<Failures> {
+    let name = command.get_name().to_owned();
     start_threads(common.threads)?;
     let together = Together::begin();
     let mut out = match &common.resume {
@@ -172,11 +147,11 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
         None => Output::to(common.output.as_deref(), &common.save)?,
     };
     let to_file = common.output.is_some() || common.resume.is_some();
-    out.show(Progress::new(A::command().get_name(), common.when(), to_file));
+    out.show(Progress::new(&name, common.when(), to_file));
     let done = match (common.generate, common.list) {
-        (Some(what), _) => what.print(A::command(), &mut out),
+        (Some(what), _) => what.print(command, &mut out),
         (None, Some(what)) => print_list(what, &mut out),
-        (None, None) => tool(args, &mut out),
+        (None, None) => tool(&mut out),
     };
     if done.as_ref().is_err_and(|e| !e.is_finding()) {
         return done.map(|()| Failures::default());
@@ -185,7 +160,7 @@ fn frame<A: ToolArgs>(args: &A, tool: impl FnOnce(&A, &mut Output) -> Result<()>
     match done {
         // the records that carry an error say why there is nothing to draw
         Err(e @ Error::NothingToDraw(_)) if failures.any() => {
-            say(A::command().get_name(), &e.to_string());
+            say(&name, &e.to_string());
             together.keep().map(|()| failures)
         }
         Err(e @ Error::NothingToDraw(_)) => Err(e),
@@ -214,12 +189,7 @@ fn start_threads(count: Option<u16>) -> Result<()> {
     })
 }
 
-fn print_list(what: ListWhat, out: &mut Output) -> Result<()> {
-    let what = match what {
-        ListWhat::Cameras => What::Cameras,
-        ListWhat::Illuminants => What::Illuminants,
-        ListWhat::Reflectances => What::Reflectances,
-    };
+fn print_list(what: What, out: &mut Output) -> Result<()> {
     let line = |(name, description): (String, String)| {
         format!("{:<20} {}", printable(&name), printable(&description))
     };

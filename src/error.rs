@@ -286,6 +286,11 @@ impl Error {
         Self::Field { field: field.into(), problem: cut(&problem.to_string(), LETTERS).into_owned() }
     }
 
+    /// An invalid spectrum, with the problem and the remedy.
+    pub fn spectrum(name: impl Into<String>, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Spectrum { name: name.into(), problem: problem.into(), remedy: remedy.into() }
+    }
+
     /// An invalid value of a flag, with the problem and the remedy.
     pub fn usage(flag: &'static str, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::Usage { flag, problem: problem.into(), remedy: remedy.into() }

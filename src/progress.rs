@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
+use clap::ValueEnum;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::error::counted;
@@ -22,12 +23,13 @@ const LOG_INTERVAL: Duration = Duration::from_secs(10);
 static LINE: OnceLock<ProgressBar> = OnceLock::new();
 
 /// When progress is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum When {
-    /// On a terminal, by the tool at the end of a pipeline whose records go to a file, so that no two tools
-    /// share the line.
+    /// On a terminal, when the records go to a file.
+    // so that no two tools of a pipeline share the line
     Auto,
-    /// Whatever standard error is: redrawn on a terminal, else a line now and then and the total at the end.
+    /// Always.
+    // redrawn on a terminal, else a line now and then and the total at the end
     Always,
     /// Never.
     Never,

@@ -11,7 +11,7 @@ impl Common {
     /// The reflectances named by `spec`.
     ///
     /// # Errors
-    /// As [`stream::reflectances`].
+    /// As [`Specs::reflectances`](crate::spectrum::spec::Specs::reflectances).
     pub fn reflectances(&self, spec: &str) -> Result<Vec<Spectrum>> {
         let spectra = stream::specs().in_percent(self.percent).reflectances(spec)?;
         self.say_notes(&spectra);
@@ -21,7 +21,8 @@ impl Common {
     /// The single reflectance named by a flag.
     ///
     /// # Errors
-    /// As [`stream::reflectances`], or [`Error::Usage`] if it is a set or a number that is no reflectance.
+    /// As [`Specs::reflectances`](crate::spectrum::spec::Specs::reflectances), or [`Error::Usage`] if it is a
+    /// set or a number that is no reflectance.
     pub fn one_reflectance(&self, flag: &'static str, spec: &str) -> Result<Spectrum> {
         match spec.trim().parse::<f64>() {
             Ok(number) if !(0.0..=1.0).contains(&number) => {
@@ -53,9 +54,9 @@ impl Common {
     /// The illuminant named by `spec`.
     ///
     /// # Errors
-    /// As [`stream::illuminant`].
+    /// As [`Specs::illuminant`](crate::spectrum::spec::Specs::illuminant).
     pub fn illuminant(&self, spec: &str) -> Result<Spectrum> {
-        let spectrum = stream::illuminant(spec)?;
+        let spectrum = stream::specs().illuminant(spec)?;
         self.say_notes([&spectrum]);
         Ok(spectrum)
     }
@@ -73,9 +74,9 @@ impl Common {
     /// The camera named by `spec`.
     ///
     /// # Errors
-    /// As [`stream::camera`].
+    /// As [`Specs::camera`](crate::spectrum::spec::Specs::camera).
     pub fn camera(&self, spec: &str) -> Result<Sensitivities> {
-        let camera = stream::camera(spec)?;
+        let camera = stream::specs().camera(spec)?;
         self.say_notes(&camera.channels);
         Ok(camera)
     }

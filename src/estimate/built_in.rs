@@ -31,11 +31,9 @@ pub struct TabledClass {
 pub fn classes_on(wavelengths_nm: &[f64]) -> Result<Vec<TabledClass>> {
     let last_nm = FIRST_NM + STEP_NM * (BANDS - 1) as f64;
     if let Some(beyond) = wavelengths_nm.iter().find(|nm| !(FIRST_NM..=last_nm).contains(nm)) {
-        return Err(Error::Spectrum {
-            name: "the built-in prior".to_owned(),
-            problem: format!("it covers {FIRST_NM}..{last_nm} nm, the grid has {beyond} nm"),
-            remedy: "choose a grid within it or give --prior a file of spectra that covers it".into(),
-        });
+        let problem = format!("it covers {FIRST_NM}..{last_nm} nm, the grid has {beyond} nm");
+        let remedy = "choose a grid within it or give --prior a file of spectra that covers it";
+        return Err(Error::spectrum("the built-in prior", problem, remedy));
     }
     let numbers: Vec<f16> = npyz::NpyFile::new(TABLE)
         .and_then(npyz::NpyFile::into_vec)

@@ -88,8 +88,8 @@ impl Setup<'_> {
             LightTaken::Daylight(_) | LightTaken::OtherThanDaylight(_) => None,
         };
         let light = self.illuminant.map(str::to_owned).or_else(sun);
-        let illuminant = stream::illuminant(light.as_deref().unwrap_or(ASSUMED_LIGHT))?;
-        let sensitivities = camera.sensitivities(stream::camera)?;
+        let illuminant = stream::specs().illuminant(light.as_deref().unwrap_or(ASSUMED_LIGHT))?;
+        let sensitivities = camera.sensitivities(|spec| stream::specs().camera(spec))?;
         let mut optics = Optics::new(self.wavelengths.clone(), &sensitivities, &[illuminant], None)?;
         optics.camera.stands_in = camera.stands_in;
         Ok(FoldSetting {

@@ -2,8 +2,7 @@
 
 use super::Spectrum;
 use super::grid::WavelengthGrid;
-use super::quantities::bad;
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Second radiation constant, nm K, as used in colorimetry (CIE 15:2018, section 4.1.1; hc/k is 0.002 %
 /// less).
@@ -24,7 +23,7 @@ pub(super) fn black_body(temperature_k: f64) -> Result<Spectrum> {
     let name = format!("{temperature_k}K");
     if !TEMPERATURES_K.contains(&temperature_k) {
         let problem = "black bodies are computed for 1000..25000 K";
-        return Err(bad(&name, problem, "choose a temperature in that range"));
+        return Err(Error::spectrum(&name, problem, "choose a temperature in that range"));
     }
     let power = |nm: f64| nm.powi(-5) / (C2_NM_K / (nm * temperature_k)).exp_m1();
     let grid = WavelengthGrid::uniform(300.0, 830.0, 5.0)?;

@@ -2,8 +2,7 @@
 
 use super::Spectrum;
 use super::names::words;
-use super::quantities::bad;
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Words in column names that denote the colours, in the order of a camera's channels.
 const COLOURS: [&[&str]; 3] =
@@ -49,7 +48,11 @@ pub(super) fn in_order(path: &str, columns: &[Spectrum]) -> Result<(Vec<Spectrum
             }
             ref several => {
                 let problem = format!("the columns {} have the same colour", list(several));
-                return Err(bad(path, problem, format!("{NAME_THEM}, G1 and G2 if there are two greens")));
+                return Err(Error::spectrum(
+                    path,
+                    problem,
+                    format!("{NAME_THEM}, G1 and G2 if there are two greens"),
+                ));
             }
         }
     }
@@ -71,7 +74,7 @@ pub(super) fn in_order(path: &str, columns: &[Spectrum]) -> Result<(Vec<Spectrum
         }
         _ => {
             let problem = format!("the columns {} do not name all of R, G and B", list(&all));
-            return Err(bad(path, problem, NAME_THEM));
+            return Err(Error::spectrum(path, problem, NAME_THEM));
         }
     }
     if have_one_peak(channels.iter().map(Spectrum::values)) {

@@ -19,12 +19,8 @@ use crate::error::{Error, Result};
 pub(super) fn daylight(cct_k: f64) -> Result<Spectrum> {
     let name = format!("daylight:{cct_k}");
     if !(4000.0..=25000.0).contains(&cct_k) {
-        let remedy = "choose a temperature in that range, or A for light bulbs".into();
-        return Err(Error::Spectrum {
-            name,
-            problem: "CIE daylight is defined for 4000..25000 K".into(),
-            remedy,
-        });
+        let remedy = "choose a temperature in that range, or A for light bulbs";
+        return Err(Error::spectrum(name, "CIE daylight is defined for 4000..25000 K", remedy));
     }
     let (m1, m2) = weights(chromaticity(cct_k));
     let basis = basis()?;

@@ -3,7 +3,6 @@
 
 use nalgebra::DMatrix;
 
-use super::quantities::bad;
 use super::{Outside, Spectrum, WavelengthGrid, formats, interpolation::Interpolation};
 use crate::error::{Error, Result};
 
@@ -83,13 +82,17 @@ impl Donaldson {
         let below = part(|shift_nm| shift_nm < -REFLECTED_WITHIN_NM).max();
         if below > NO_NOISE && below > fluorescence.max() {
             let problem = "most emission has shorter wavelengths than its excitation";
-            return Err(bad(name, problem, "write emission in rows, excitation in columns"));
+            return Err(Error::spectrum(name, problem, "write emission in rows, excitation in columns"));
         }
         let reflectance: Vec<f64> = reflected.row_iter().map(|row| row.sum()).collect();
         if let Some(row) = reflectance.iter().position(|reflectance| *reflectance > 1.0) {
             let problem =
                 format!("at {} nm the reflectance is {}, above 1", emission_nm[row], reflectance[row]);
-            return Err(bad(name, problem, "give radiance factors per band, as fractions of white's"));
+            return Err(Error::spectrum(
+                name,
+                problem,
+                "give radiance factors per band, as fractions of white's",
+            ));
         }
         let spectrum = |values: Vec<f64>| {
             Spectrum::new(name, emission_nm.to_vec(), values)
@@ -117,16 +120,24 @@ impl Donaldson {
             column.name().parse::<f64>().map_err(|_| {
                 let problem =
                     format!("the name of column '{}' is not an excitation wavelength", column.name());
-                bad(path, problem, "write it as a number, in nm")
+                Error::spectrum(path, problem, "write it as a number, in nm")
             })
         };
         let excitation_nm = columns.iter().map(wavelength_nm).collect::<Result<Vec<_>>>()?;
         let [first, others @ ..] = columns.as_slice() else {
-            return Err(bad(path, "it has no columns".to_owned(), "write one per excitation wavelength"));
+            return Err(Error::spectrum(
+                path,
+                "it has no columns".to_owned(),
+                "write one per excitation wavelength",
+            ));
         };
         if others.iter().any(|column| column.wavelengths_nm() != first.wavelengths_nm()) {
             let problem = "its columns have different wavelengths".to_owned();
-            return Err(bad(path, problem, "write the same wavelengths of emission for all of them"));
+            return Err(Error::spectrum(
+                path,
+                problem,
+                "write the same wavelengths of emission for all of them",
+            ));
         }
         let emission = WavelengthGrid::new(first.wavelengths_nm().to_vec())?;
         let factors = DMatrix::from_fn(emission.len(), columns.len(), |row, n| columns[n].values()[row]);

@@ -239,10 +239,9 @@ fn cie_illuminant(name: &str) -> Result<Option<Spectrum>> {
     let Some(cct_k) = name.strip_prefix("daylight:") else {
         return Ok(cie_illuminants()?.iter().find(|cie| same_name(cie.name(), name)).cloned());
     };
-    let cct_k = cct_k.parse().map_err(|_| Error::Spectrum {
-        name: name.to_owned(),
-        problem: format!("'{cct_k}' is not a colour temperature"),
-        remedy: "write kelvins, such as daylight:5500".into(),
+    let cct_k = cct_k.parse().map_err(|_| {
+        let problem = format!("'{cct_k}' is not a colour temperature");
+        Error::spectrum(name, problem, "write kelvins, such as daylight:5500")
     })?;
     daylight::daylight(cct_k).map(Some)
 }

@@ -101,11 +101,11 @@ impl Spectrum {
         if wavelengths_nm.len() != values.len() {
             let (values, wavelengths) = (counted(values.len(), "value"), wavelengths_nm.len());
             let problem = format!("{values} for {wavelengths} wavelengths");
-            return Err(Error::Spectrum { name, problem, remedy: "give one value per wavelength".into() });
+            return Err(Error::spectrum(name, problem, "give one value per wavelength"));
         }
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
             let problem = format!("{value} is not a number");
-            return Err(Error::Spectrum { name, problem, remedy: "give finite values".into() });
+            return Err(Error::spectrum(name, problem, "give finite values"));
         }
         Ok(Self::from_table(name, wavelengths_nm.into(), values))
     }
@@ -216,11 +216,9 @@ impl Spectrum {
     pub fn on(&self, grid: &WavelengthGrid, outside: Outside) -> Result<Vec<f64>> {
         let ((first_nm, last_nm), (grid_first_nm, grid_last_nm)) = (self.range_nm(), grid.range_nm());
         if outside == Outside::Refuse && (grid_first_nm < first_nm || grid_last_nm > last_nm) {
-            return Err(Error::Spectrum {
-                name: self.name.clone(),
-                problem: format!("its samples cover {first_nm}..{last_nm} nm, the grid is {grid}"),
-                remedy: "choose a grid within the samples or extend the table".into(),
-            });
+            let problem = format!("its samples cover {first_nm}..{last_nm} nm, the grid is {grid}");
+            let remedy = "choose a grid within the samples or extend the table";
+            return Err(Error::spectrum(&self.name, problem, remedy));
         }
         // both increase: stepping along is several times faster than a search for each wavelength
         let (last, mut right) = (self.values.len() - 1, 1);

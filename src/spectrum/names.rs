@@ -1,15 +1,17 @@
 //! Names of spectra: which are equal, and which may have been meant.
 
+use clap::ValueEnum;
+
 use crate::error::Error;
 
 /// The kinds of spectra.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum What {
     /// Camera sensitivities.
     Cameras,
     /// Illuminants.
     Illuminants,
-    /// Reflectances.
+    /// Reflectances and sets of them.
     Reflectances,
 }
 

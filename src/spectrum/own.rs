@@ -71,8 +71,7 @@ pub(super) fn find<'a>(
             (Some(one), Some(other)) => {
                 let problem =
                     format!("{} and {} in {VARIABLE} share this name", one.file_name(), other.file_name());
-                let remedy = "rename one, or give the path".to_owned();
-                return Err(Error::Spectrum { name: stem.to_owned(), problem, remedy });
+                return Err(Error::spectrum(stem, problem, "rename one, or give the path"));
             }
         }
     }

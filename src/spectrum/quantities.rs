@@ -50,7 +50,7 @@ pub(super) fn check_reflectance(spectrum: &Spectrum) -> Result<()> {
         2.0.. => "give fractions from 0 to 1, or a file in percent with --percent",
         _ => "leave out fluorescent samples, or rescale wrongly scaled ones",
     };
-    Err(bad(spectrum.name(), format!("reflectance {value} is outside 0..1"), remedy))
+    Err(Error::spectrum(spectrum.name(), format!("reflectance {value} is outside 0..1"), remedy))
 }
 
 /// Refuses values below 0; a sheet may send out more light than white.
@@ -58,7 +58,7 @@ pub(super) fn check_radiance_factor(spectrum: &Spectrum) -> Result<()> {
     match spectrum.values().iter().find(|value| **value < 0.0) {
         Some(value) => {
             let problem = format!("{value} is below 0, but a fraction of white's light is needed");
-            Err(bad(spectrum.name(), problem, "set negative noise to 0"))
+            Err(Error::spectrum(spectrum.name(), problem, "set negative noise to 0"))
         }
         None => Ok(()),
     }
@@ -67,21 +67,20 @@ pub(super) fn check_radiance_factor(spectrum: &Spectrum) -> Result<()> {
 /// Refuses values below `least`, and spectra without any power.
 pub(super) fn check_power(spectrum: &Spectrum, least: f64) -> Result<()> {
     if let Some(value) = spectrum.values().iter().find(|value| **value < least) {
-        return Err(bad(spectrum.name(), format!("{value} is below 0"), "give values of 0 or more"));
+        return Err(Error::spectrum(
+            spectrum.name(),
+            format!("{value} is below 0"),
+            "give values of 0 or more",
+        ));
     }
     if !spectrum.values().iter().any(|value| *value > 0.0) {
-        return Err(bad(
+        return Err(Error::spectrum(
             spectrum.name(),
             "it is zero at every wavelength",
             "give a positive value somewhere",
         ));
     }
     Ok(())
-}
-
-/// An error about a spectrum.
-pub(super) fn bad(name: &str, problem: impl Into<String>, remedy: impl Into<String>) -> Error {
-    Error::Spectrum { name: name.to_owned(), problem: problem.into(), remedy: remedy.into() }
 }
 
 #[cfg(test)]

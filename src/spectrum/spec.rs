@@ -7,7 +7,7 @@
 use super::formats::{self, ENDINGS, JsonReader, has_ending, no_json};
 use super::names::{What, unknown};
 use super::own::{self, OwnFile};
-use super::quantities::{Sensitivities, bad, check_power, check_radiance_factor, check_reflectance};
+use super::quantities::{Sensitivities, check_power, check_radiance_factor, check_reflectance};
 use super::{Spectrum, library};
 use crate::error::{Error, Result};
 use crate::message::printable;
@@ -128,7 +128,7 @@ impl Specs {
         let illuminant = columns.swap_remove(0);
         if !columns.is_empty() {
             let problem = format!("{} columns, but one illuminant is needed", columns.len() + 1);
-            return Err(bad(spec, problem, format!("name one of them, such as {spec}:COLUMN")));
+            return Err(Error::spectrum(spec, problem, format!("name one of them, such as {spec}:COLUMN")));
         }
         check_power(&illuminant, 0.0).map_err(|e| in_file(spec, e))?;
         Ok(illuminant.as_power())
@@ -213,7 +213,7 @@ fn column_called(path: &str, column: Option<&str>, mut spectra: Vec<Spectrum>) -
     let Some(at) = spectra.iter().position(|spectrum| spectrum.name() == column) else {
         let names: Vec<_> = spectra.iter().map(Spectrum::name).collect();
         let hint = format!("the columns are {}", names[..names.len().min(12)].join(", "));
-        return Err(bad(path, format!("there is no column '{column}'"), hint));
+        return Err(Error::spectrum(path, format!("there is no column '{column}'"), hint));
     };
     Ok(vec![spectra.swap_remove(at)])
 }

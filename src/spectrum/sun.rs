@@ -100,7 +100,7 @@ impl Sun {
         let problem = format!("the sun is below the horizon, {:.1}° from the zenith", self.zenith_deg);
         let problem =
             if self.zenith_deg >= 90.0 { problem } else { format!("{}° is not an angle", self.zenith_deg) };
-        Err(Error::Spectrum { name: name.to_owned(), problem, remedy: remedy.to_owned() })
+        Err(Error::spectrum(name, problem, remedy))
     }
 
     /// Square of the ratio of the mean distance to that of the day; Spencer (1971), eqs. 2-2 and 2-3 of Bird
@@ -130,7 +130,7 @@ impl Sun {
 }
 
 fn wrong(text: &str, problem: impl Into<String>, remedy: &str) -> Error {
-    Error::Spectrum { name: format!("sun:{text}"), problem: problem.into(), remedy: remedy.to_owned() }
+    Error::spectrum(format!("sun:{text}"), problem, remedy)
 }
 
 /// A calendar time, and its offset from UTC.

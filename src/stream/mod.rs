@@ -76,7 +76,7 @@ pub use photograph::ImageRecord;
 pub use picked::picked_line;
 pub use pipe::{Transform, pipe};
 pub use plan::{NewPlan, plan};
-pub use rawtoaces::{camera, illuminant, reflectances, specs};
+pub use rawtoaces::specs;
 pub use reader::{Reader, Record};
 pub use reference_panel::ReferencePanel;
 pub use regions::{Corners, Regions};

@@ -11,9 +11,9 @@ use serde::Deserialize;
 
 use super::json_file;
 use crate::error::{Error, Result, counted};
+use crate::spectrum::Spectrum;
 use crate::spectrum::formats::Table;
 use crate::spectrum::spec::Specs;
-use crate::spectrum::{Sensitivities, Spectrum};
 
 #[derive(Deserialize)]
 struct SpectraFile {
@@ -39,17 +39,8 @@ const NM: RangeInclusive<f64> = 100.0..=3000.0;
 const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\", \"B\"]}, \
                        \"data\": {\"main\": {\"380\": [r, g, b], ..}}}}";
 
-/// Resolves a SPEC, including JSON files.
-#[must_use]
-pub fn specs() -> Specs {
-    Specs::with_json(read)
-}
-
-/// The camera named by `spec`: as [`crate::spectrum::camera`], or a rawtoaces file if the name ends in
-/// `.json`.
-///
-/// # Errors
-/// As [`crate::spectrum::camera`]; [`Error::Record`] with the line if a file is not in rawtoaces format.
+/// Resolves a SPEC of a camera, an illuminant or reflectances as [`crate::spectrum`] does, and rawtoaces files,
+/// whose names end in `.json`.
 ///
 /// # Example
 /// ```
@@ -57,28 +48,13 @@ pub fn specs() -> Specs {
 /// let text = r#"{"spectral_data": {"index": {"main": ["R", "G"]},
 ///     "data": {"main": {"500": [0.1, 1], "600": [1, 0.2]}}}}"#;
 /// std::fs::write(file.path(), text).unwrap();
-/// let camera = vfold::stream::camera(file.path().to_str().unwrap())?;
+/// let camera = vfold::stream::specs().camera(file.path().to_str().unwrap())?;
 /// assert_eq!((camera.channels[1].name(), camera.channels[1].values()), ("G", &[1.0, 0.2][..]));
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn camera(spec: &str) -> Result<Sensitivities> {
-    specs().camera(spec)
-}
-
-/// The illuminant named by `spec`: as [`crate::spectrum::illuminant`], or a rawtoaces file.
-///
-/// # Errors
-/// As [`camera`].
-pub fn illuminant(spec: &str) -> Result<Spectrum> {
-    specs().illuminant(spec)
-}
-
-/// The reflectances named by `spec`: as [`crate::spectrum::reflectances`], or a rawtoaces file.
-///
-/// # Errors
-/// As [`camera`].
-pub fn reflectances(spec: &str) -> Result<Vec<Spectrum>> {
-    specs().reflectances(spec)
+#[must_use]
+pub fn specs() -> Specs {
+    Specs::with_json(read)
 }
 
 /// The spectra of a rawtoaces file.
@@ -86,8 +62,7 @@ fn read(path: &str, text: &str) -> Result<Table> {
     let SpectraFile { spectral_data: SpectralData { units, index, data } } =
         json_file::parse(path, text, EXAMPLE)?;
     let refused = |problem: String| {
-        let remedy = "give each wavelength, in nm, one number per spectrum".to_owned();
-        Error::Spectrum { name: path.to_owned(), problem, remedy }
+        Error::spectrum(path, problem, "give each wavelength, in nm, one number per spectrum")
     };
     let count = index.main.len();
     let mut rows = Vec::new();

@@ -26,7 +26,7 @@ use plan::PlanArgs;
 use settings::{NoiseSd, Smoothness};
 use verdicts::Verdicts;
 use vfold::Result;
-use vfold::cli::{self, Common, KernelArgs, MaterialArgs, ToolArgs};
+use vfold::cli::{self, Common, KernelArgs, MaterialArgs};
 use vfold::estimate::Exposure;
 use vfold::estimate::unknowns::Flag;
 use vfold::spectrum::formats::{check_ending, write};
@@ -134,14 +134,8 @@ impl Args {
     }
 }
 
-impl ToolArgs for Args {
-    fn common(&self) -> &Common {
-        &self.common
-    }
-}
-
 fn main() -> ExitCode {
-    cli::run(tool)
+    cli::run(|args: &Args| &args.common, tool)
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {

@@ -31,7 +31,7 @@ use placing::PlacingArgs;
 use reading::ReadingArgs;
 use regions::RegionArgs;
 use sample::Setup;
-use vfold::cli::{self, Common, OpticsArgs, ToolArgs};
+use vfold::cli::{self, Common, OpticsArgs};
 use vfold::image::Photograph;
 use vfold::scene::Setting;
 use vfold::stream::{Output, Reader, Record, Scene};
@@ -129,14 +129,8 @@ struct Args {
     common: Common,
 }
 
-impl ToolArgs for Args {
-    fn common(&self) -> &Common {
-        &self.common
-    }
-}
-
 fn main() -> ExitCode {
-    cli::run(tool)
+    cli::run(|args: &Args| &args.common, tool)
 }
 
 /// Refuses to read two things from standard input: of two, one would find nothing there.

@@ -17,7 +17,7 @@ use render::RenderArgs;
 use setup::Setup;
 use sheet::SheetArgs;
 use subject::Subject;
-use vfold::cli::{self, Common, KernelArgs, MaterialArgs, OpticsArgs, ToolArgs};
+use vfold::cli::{self, Common, KernelArgs, MaterialArgs, OpticsArgs};
 use vfold::forward::noise::Noise;
 use vfold::paper::bounces::Bounces;
 use vfold::scene::Setting;
@@ -122,14 +122,8 @@ enum BouncesArg {
     Auto,
 }
 
-impl ToolArgs for Args {
-    fn common(&self) -> &Common {
-        &self.common
-    }
-}
-
 fn main() -> ExitCode {
-    cli::run(tool)
+    cli::run(|args: &Args| &args.common, tool)
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {

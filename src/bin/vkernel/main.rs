@@ -12,7 +12,7 @@ use std::process::ExitCode;
 use clap::{Parser, ValueEnum};
 use light::LightArgs;
 use shape::ShapeArgs;
-use vfold::cli::{self, Common, ToolArgs};
+use vfold::cli::{self, Common};
 use vfold::error::counted;
 use vfold::geometry::FacetGrid;
 use vfold::kernel::mesh::{Accuracy, Mesh};
@@ -142,14 +142,8 @@ enum SamplingName {
     Cosine,
 }
 
-impl ToolArgs for Args {
-    fn common(&self) -> &Common {
-        &self.common
-    }
-}
-
 fn main() -> ExitCode {
-    cli::run(tool)
+    cli::run(|args: &Args| &args.common, tool)
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {

@@ -14,7 +14,7 @@ use metric::metric;
 use scorer::Scorer;
 use table::Table;
 use vfold::Result;
-use vfold::cli::{self, Common, ToolArgs};
+use vfold::cli::{self, Common};
 use vfold::colorimetry::Observer;
 use vfold::plot::spectra::CURVES_MAX;
 use vfold::plot::{batch, sheets};
@@ -112,14 +112,8 @@ impl Args {
     }
 }
 
-impl ToolArgs for Args {
-    fn common(&self) -> &Common {
-        &self.common
-    }
-}
-
 fn main() -> ExitCode {
-    cli::run(tool)
+    cli::run(|args: &Args| &args.common, tool)
 }
 
 fn tool(args: &Args, out: &mut Output) -> Result<()> {

@@ -40,8 +40,8 @@ impl Table {
     pub fn new(spectra: Vec<Spectrum>) -> Result<Self> {
         for spectrum in &spectra {
             if let Some(value) = spectrum.values().iter().find(|value| value.abs() > LARGEST) {
-                let (name, problem) = (spectrum.name().to_owned(), format!("{value:e} is too large"));
-                return Err(Error::Spectrum { name, problem, remedy: "rescale the spectrum".to_owned() });
+                let problem = format!("{value:e} is too large");
+                return Err(Error::spectrum(spectrum.name(), problem, "rescale the spectrum"));
             }
         }
         Ok(Self { stated: vec![Stated::default(); spectra.len()], spectra, notes: Vec::new() })
@@ -72,8 +72,8 @@ impl Table {
         match other {
             Some(quantity) => {
                 let problem = format!("the file says it holds {}, not {}", quantity.name(), wanted(what));
-                let remedy = "export it again with the right quantity, or name another file".to_owned();
-                Err(Error::Spectrum { name: path.to_owned(), problem, remedy })
+                let remedy = "export it again with the right quantity, or name another file";
+                Err(Error::spectrum(path, problem, remedy))
             }
             None => Ok(()),
         }

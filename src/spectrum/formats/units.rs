@@ -1,10 +1,9 @@
 //! Units of files that may not state them: nm, micrometres or ångström, fractions or percent.
 
 use super::place::Place;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::spectrum::Spectrum;
 use crate::spectrum::names::words;
-use crate::spectrum::quantities::bad;
 
 /// Units of wavelength in files.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -175,13 +174,17 @@ pub(super) fn percent(
     if stated.is_none() && !is_percent {
         if let Some((spectrum, _)) = open().find(|(_, scale)| **scale == Scale::Unclear) {
             let problem = format!("the name '{}' may mean percent, or be only a name", spectrum.name());
-            return Err(bad(path, problem, "give --percent, or --percent=no if the values are fractions"));
+            return Err(Error::spectrum(
+                path,
+                problem,
+                "give --percent, or --percent=no if the values are fractions",
+            ));
         }
         if peak > 1.0 && peak <= FRACTION_MAX {
             let problem = format!("reflectance {peak} is outside 0..1, unless it is percent of a dark sheet");
             let remedy =
                 "give --percent if it is, else leave out fluorescent samples or rescale wrongly scaled ones";
-            return Err(bad(path, problem, remedy));
+            return Err(Error::spectrum(path, problem, remedy));
         }
     }
     Ok(scales.iter().map(|scale| *scale == Scale::Percent || is_open(scale) && is_percent).collect())

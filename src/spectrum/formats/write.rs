@@ -96,8 +96,7 @@ pub fn check_ending(path: &Path) -> Result<()> {
 }
 
 fn unfit(path: &Path, problem: impl Into<String>, remedy: &str) -> Error {
-    let name = path.display().to_string();
-    Error::Spectrum { name, problem: problem.into(), remedy: remedy.to_owned() }
+    Error::spectrum(path.display().to_string(), problem, remedy)
 }
 
 /// The wavelengths shared by all samples.
