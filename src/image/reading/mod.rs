@@ -3,6 +3,7 @@
 mod alpha;
 mod decode;
 mod exif;
+mod exif_block;
 mod exif_taken;
 mod icc;
 mod jpeg;
