@@ -87,6 +87,10 @@ fn processed(making: &Making) -> Option<Doubt> {
             "noise in the channels is anticorrelated: a colour matrix mixed them, \
              as programs that develop RAW files do"
         }
+        Processing::CurveOfFlatField => {
+            "noise in the picture given with --white falls as brightness rises: \
+             a tone curve such as sRGB's was applied to it"
+        }
     };
     making.processing.map(|processing| Doubt {
         level: Level::Wrong,

@@ -60,7 +60,8 @@ pub struct ImageRecord {
     /// Whether the picture appears to have been developed for viewing, and none of that was undone.
     #[serde(skip_serializing_if = "is_false")]
     developed: bool,
-    /// Processing that the noise of the numbers reveals: `curve` or `matrix`.
+    /// Processing that the noise of the numbers reveals: `curve`, `matrix`, or `white_curve`
+    /// for the picture of `--white`.
     #[serde(skip_serializing_if = "Option::is_none")]
     processing: Option<ProcessingRecord>,
     /// Number of neighbouring pixels that share their noise, so that together they count as one, per channel;
@@ -118,12 +119,14 @@ pub struct ImageRecord {
 
 /// Processing of numbers that appear to be those of the sensor.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "snake_case")]
 enum ProcessingRecord {
     /// The numbers have a curve such as that of sRGB.
     Curve,
     /// A matrix mixed the channels.
     Matrix,
+    /// The picture of `vextract --white` has a curve such as that of sRGB.
+    WhiteCurve,
 }
 
 impl From<Processing> for ProcessingRecord {
@@ -131,6 +134,7 @@ impl From<Processing> for ProcessingRecord {
         match processing {
             Processing::Curve => Self::Curve,
             Processing::Matrix => Self::Matrix,
+            Processing::CurveOfFlatField => Self::WhiteCurve,
         }
     }
 }
@@ -140,6 +144,7 @@ impl From<ProcessingRecord> for Processing {
         match record {
             ProcessingRecord::Curve => Self::Curve,
             ProcessingRecord::Matrix => Self::Matrix,
+            ProcessingRecord::WhiteCurve => Self::CurveOfFlatField,
         }
     }
 }

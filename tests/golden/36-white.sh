@@ -27,6 +27,14 @@ panels uneven.tif --white sheet.tif >/dev/null
 python3 -c "import numpy as np; np.save('got.npy', np.load('got.npy') / [$mean])"
 compare "flat field of 16 bits" 0.5
 
+# a camera that looks down may note any orientation: pixels of one place of the sensor belong together
+for orientation in 3 6; do
+    oiiotool sheet.tif --orientation $orientation -d uint16 -o turned.tif
+    panels uneven.tif --white turned.tif 2>&1 >/dev/null
+    python3 -c "import numpy as np; np.save('got.npy', np.load('got.npy') / [$mean])"
+    compare "flat field of orientation $orientation" 0.5
+done
+
 # a white card of reflectance 0.9 that the sun meets at 60 degrees; white in this light is 1 in green, less in red and blue
 set -- $(vkernel --angle-deg 180 --facets 1x1 | vforward --reflectance 0.45 --save facet_rgb=white.npy >/dev/null
     python3 -c "import numpy as np; print(*(0.5 * np.load('white.npy')[0, 0]))")
@@ -92,5 +100,6 @@ echo what is refused
 oiiotool sheet.exr --resize 320x240 -o small.exr
 oiiotool sheet.exr --mulc 3 -d uint16 -o clipped.tif
 oiiotool sheet.exr --mulc 0 -o dark.exr
-for sheet in small.exr clipped.tif dark.exr; do panels uneven.exr --white $sheet 2>&1 || echo "exit status $?"; done
+oiiotool sheet.exr --colorconvert linear sRGB -d uint8 -o camera.jpg
+for sheet in small.exr clipped.tif dark.exr camera.jpg; do panels uneven.exr --white $sheet 2>&1 || echo "exit status $?"; done
 panels uneven.exr --white-region "10,10 70,10 70,50 10,50" --white sheet.exr 2>&1 || echo "exit status $?"

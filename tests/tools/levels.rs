@@ -134,9 +134,18 @@ fn a_black_level_that_was_not_subtracted_shows() {
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
 }
 
+/// Makes `sheet.exr`, white in light that falls off, with the noise of 20000 electrons at 1; then `uneven.exr`,
+/// the photograph in that light.
+const SHEET: &str = "oiiotool --pattern noise:type=gaussian:mean=0:stddev=7.07e-3 480x360 3 -o noise.exr
+    oiiotool --pattern fill:topleft=.45,.9,.7:topright=.36,.72,.56:bottomleft=.4,.8,.62:bottomright=.3,.6,.46 \
+        480x360 3 -o light.exr
+    oiiotool light.exr --powc .5 noise.exr --mul light.exr --add -o sheet.exr
+    oiiotool light.exr --mulc 2,1,1.3 photo.exr --mul -o uneven.exr";
+
 #[test]
 fn noise_tells_a_curve_and_a_matrix() {
     let folder = taken();
+    assert_eq!(folder.sh(SHEET).status, 0);
     for (what, change, says, word) in [
         ("the power of sRGB", "--powc 0.41667", "curve such as sRGB's", "curve"),
         (
@@ -146,12 +155,47 @@ fn noise_tells_a_curve_and_a_matrix() {
             "matrix",
         ),
     ] {
-        let run =
-            extract(&folder, &format!("oiiotool photo.exr {change} -d uint16 -o done.tif"), "done.tif", "");
-        assert!(run.status == 0 && run.stderr.contains(says), "{what}: {run:?}");
-        let (level, because) = verdict(&folder);
-        assert!(level == "wrong" && because.contains(word), "{what}: {level}: {because}");
+        for flags in ["", "--white sheet.exr"] {
+            let make = format!("oiiotool photo.exr {change} -d uint16 -o done.tif");
+            let run = extract(&folder, &make, "done.tif", flags);
+            assert!(run.status == 0 && run.stderr.contains(says), "{what}, {flags}: {run:?}");
+            let (level, because) = verdict(&folder);
+            assert!(level == "wrong" && because.contains(word), "{what}, {flags}: {level}: {because}");
+        }
     }
+}
+
+/// The picture of a white sheet is one by the same camera, in the camera's own numbers.
+#[test]
+fn a_white_sheet_is_held_to_the_rules_of_a_photograph() {
+    const CANON: &str = "--attrib Make Canon --attrib Model 'Canon EOS 5D Mark II'";
+    const APERTURE: &str = "--attrib:type=float FNumber";
+    let folder = taken();
+    let make = format!("{SHEET}; oiiotool uneven.exr {CANON} {APERTURE} 8 -d uint16 -o u.tif");
+    let run = extract(&folder, &make, "u.tif", "--white sheet.exr");
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    assert_ne!(verdict(&folder).0, "wrong");
+    let run = extract(&folder, "oiiotool sheet.exr --powc 0.41667 -o s.exr", "u.tif", "--white s.exr");
+    assert!(run.status == 0 && run.stderr.contains("noise in the picture given with --white"), "{run:?}");
+    let (level, because) = verdict(&folder);
+    assert!(level == "wrong" && because.contains("given with --white"), "{level}: {because}");
+    for (change, says) in [
+        ("--colorconvert linear sRGB -d uint8 -o s.jpg", "(JPEG, 8-bit, RGB) was developed for the eye"),
+        ("--ch G -d uint16 -o s.tif", "the picture is in colour, the flat field grey"),
+        ("--ch G,G,G -d uint16 -o s.tif", "the picture is in colour, the flat field grey"),
+        (
+            "--attrib Model B -d uint16 -o s.tif",
+            "the picture was taken by Canon EOS 5D Mark II, the flat field by B",
+        ),
+    ] {
+        let sheet = change.split_whitespace().last().unwrap();
+        let run =
+            extract(&folder, &format!("oiiotool sheet.exr {change}"), "u.tif", &format!("--white {sheet}"));
+        assert!(run.status == 1 && run.stderr.contains(says), "{change}: {run:?}");
+    }
+    let make = &format!("oiiotool sheet.exr {CANON} {APERTURE} 4 -d uint16 -o s.tif");
+    let run = extract(&folder, make, "u.tif", "--white s.tif");
+    assert!(run.status == 0 && run.stderr.contains("taken at f/8, but s.tif at f/4"), "{run:?}");
 }
 
 #[test]

@@ -200,6 +200,59 @@ fn black_and_white_that_a_tiff_states_are_confirmed_by_the_user() {
     assert_eq!(extract(&[(532, &whole), (50714, &[0])], "").status, 0, "as assumed");
 }
 
+/// The first directory of a little-endian TIFF: its place, and its entries.
+fn first_directory(tiff: &[u8]) -> (usize, Vec<[u8; 12]>) {
+    let at = u32::from_le_bytes(tiff[4..8].try_into().unwrap()) as usize;
+    let count = usize::from(u16::from_le_bytes([tiff[at], tiff[at + 1]]));
+    (at, tiff[at + 2..].chunks_exact(12).take(count).map(|entry| entry.try_into().unwrap()).collect())
+}
+
+fn directory(mut entries: Vec<[u8; 12]>) -> Vec<u8> {
+    entries.sort_by_key(|entry| u16::from_le_bytes([entry[0], entry[1]]));
+    [&(entries.len() as u16).to_le_bytes()[..], &entries.concat(), &[0; 4]].concat()
+}
+
+/// An entry whose value is a single number.
+fn entry(tag: u16, kind: u16, value: usize) -> [u8; 12] {
+    let parts = [&tag.to_le_bytes()[..], &kind.to_le_bytes(), &[1, 0, 0, 0], &(value as u32).to_le_bytes()];
+    parts.concat().try_into().unwrap()
+}
+
+/// EXIF that calls the numbers those of sRGB, in places where programs put it.
+#[test]
+fn exif_is_found_wherever_a_tiff_has_it() {
+    const FAR: usize = 2 << 20;
+    let folder = Workdir::new();
+    let exif = directory(vec![entry(0xa001, 3, 1)]);
+    let [left, right] = stored(1.0, &[]);
+    // EXIF and first directory behind far more than the pixels, and more behind them
+    let mut far = tiff([&left, &right], &[]);
+    let (_, mut entries) = first_directory(&far);
+    far.resize(FAR, 0xff);
+    far.extend(&exif);
+    entries.push(entry(0x8769, 4, FAR));
+    far.resize(2 * FAR, 0xff);
+    far.extend(directory(entries));
+    far.resize(3 * FAR, 0xff);
+    far[4..8].copy_from_slice(&(2 * FAR as u32).to_le_bytes());
+    // EXIF of the second page, before which a small copy is announced
+    let mut paged = tiff([&left, &right], &[(254, &[1])]);
+    let (at, mut entries) = first_directory(&paged);
+    let end = at + 2 + 12 * entries.len();
+    entries.retain(|entry| entry[..2] != 254_u16.to_le_bytes());
+    let exif_at = paged.len();
+    paged.extend(&exif);
+    let second_at = paged.len() as u32;
+    paged[end..end + 4].copy_from_slice(&second_at.to_le_bytes());
+    entries.push(entry(0x8769, 13, exif_at));
+    paged.extend(directory(entries));
+    for (what, bytes) in [("far away", far), ("of the page", paged)] {
+        std::fs::write(folder.path().join("a.tif"), bytes).unwrap();
+        let sample = sample(&sh(&folder, "of_canon a.tif"));
+        assert_eq!(sample["image"]["transfer"], "srgb", "{what}");
+    }
+}
+
 /// Channels of OpenEXR that are not red, green and blue.
 #[test]
 fn other_channels_are_named() {

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use vfold::camera::ChartCamera;
-use vfold::image::{FlatField, Photograph};
+use vfold::image::Photograph;
 use vfold::spectrum::Outside;
 use vfold::spectrum::formats::{Measured, check_ending, write};
 use vfold::{Error, Result, cli};
 
 use super::calibration::ResolvedCalibration;
 use super::regions::ResolvedRegions;
+use super::sheet::Sheet;
 use super::{Args, light};
 
 /// Writes the camera derived from a single photograph.
@@ -23,7 +24,7 @@ pub fn save(
     images: &[PathBuf],
     first: Result<Photograph>,
     (regions, calibration): (&ResolvedRegions, &ResolvedCalibration),
-    flat_field: Option<std::sync::Arc<FlatField>>,
+    sheet: Option<&Sheet>,
 ) -> Result<()> {
     const FLAG: &str = "--save-camera";
     if images.len() > 1 {
@@ -38,8 +39,8 @@ pub fn save(
     }
     check_ending(file)?;
     let path = &images[0];
-    let photograph = match flat_field {
-        Some(flat_field) => first?.with_flat_field(flat_field, path)?,
+    let photograph = match sheet {
+        Some(sheet) => sheet.divide(path, first?)?,
         None => first?,
     };
     let (optics, assumed) = light::optics(&args.optics, path, Some(&photograph));
@@ -67,8 +68,9 @@ pub fn save(
         .map(channel)
         .collect();
     write(file, &channels)?;
-    assumed
-        .into_iter()
+    let differences = sheet.iter().flat_map(|sheet| sheet.differences(path, &photograph));
+    differences
+        .chain(assumed)
         .chain([note])
         .filter(|_| !args.common.quiet)
         .for_each(|line| cli::say("vextract", &line));

@@ -17,12 +17,12 @@ mod placing;
 mod reading;
 mod regions;
 mod sample;
+mod sheet;
 mod target;
 mod white;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use calibration::CalibrationArgs;
 use clap::Parser;
@@ -170,10 +170,10 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     let regions = args.regions.resolved()?;
     let calibration = args.calibration.resolved(&args.optics.wavelengths_nm, &args.common)?;
     args.optics.one_illuminant("name one: a photograph has one light")?;
-    let flat_field = args.reading.flat_field(&reading)?.map(Arc::new);
+    let sheet = args.reading.sheet(&reading)?;
     if let Some(file) = &args.calibration.save_camera {
         let first = reading.open(&images[0]);
-        return chart_camera::save(args, file, &images, first, (&regions, &calibration), flat_field);
+        return chart_camera::save(args, file, &images, first, (&regions, &calibration), sheet.as_ref());
     }
     let mut scene = read_scene(&args.scene)?;
     let first = reading.open_to_measure(&images[0]);
@@ -196,24 +196,17 @@ fn tool(args: &Args, out: &mut Output) -> Result<()> {
     if !args.common.no_history {
         scene.fields.add_history("vextract")?;
     }
+    if !args.common.quiet {
+        notes.extend(sheet.iter().flat_map(|sheet| sheet.warnings(&scene)));
+    }
     let setting = Setting::of(&scene)?;
     let (id, panels, facet_count) = (scene.id()?, setting.panels()?, setting.facets()?);
     let sight = match &setting {
         Setting::Fold(_) => None,
         Setting::Surface(surface) => Some(Sight::new(&surface.scene.shape()?)),
     };
-    let setup = Setup {
-        args,
-        reading,
-        scene: &scene,
-        id,
-        panels,
-        facet_count,
-        sight,
-        regions,
-        calibration,
-        flat_field,
-    };
+    let setup =
+        Setup { args, reading, scene: &scene, id, panels, facet_count, sight, regions, calibration, sheet };
     if let Some(replaced) = batch::forget_replaced(&images, out)?
         && !args.common.quiet
     {

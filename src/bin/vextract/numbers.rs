@@ -106,6 +106,10 @@ fn processed(processing: Processing) -> String {
     let why = match processing {
         Processing::Curve => "its noise falls as brightness rises: a tone curve such as sRGB's was applied",
         Processing::Matrix => "noise in its channels is anticorrelated: a colour matrix mixed them",
+        Processing::CurveOfFlatField => {
+            "noise in the picture given with --white falls as brightness rises: a tone curve such as sRGB's \
+             was applied to it"
+        }
     };
     format!(
         ": {why}; expect a wrong spectrum; give the RAW file, or a linear TIFF in the camera's own colours"

@@ -54,7 +54,8 @@ pub fn exposure_of_sheet(
     (path, sheet): (&Path, &FlatField),
     photograph: &Photograph,
 ) -> Result<Option<WhitePaperRecord>> {
-    let (Some(own), Some(of_sheet)) = (photograph.info().white_per_klx(), sheet.info().white_per_klx())
+    let (Some(own), Some(of_sheet)) =
+        (photograph.info().white_per_klx(), sheet.photograph().info().white_per_klx())
     else {
         return Ok(None);
     };

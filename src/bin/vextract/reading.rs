@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use vfold::files::sha256;
-use vfold::image::{FlatField, Photograph, PictureFile, ReadOptions, Transfer, is_for_the_eye};
+use vfold::image::{Photograph, PictureFile, ReadOptions, Transfer, is_for_the_eye};
 use vfold::stream::read_development;
 use vfold::{Error, Result};
+
+use super::sheet::Sheet;
 
 #[derive(Args)]
 #[command(next_help_heading = "Reading photographs")]
@@ -27,7 +29,7 @@ pub struct ReadingArgs {
     /// counts as 1. If both files record exposure time, aperture and sensitivity, and nothing else shows the
     /// exposure, the sheet does, as printing paper or --white-reflectance
     #[arg(long, value_name = "IMAGE")]
-    pub white: Option<PathBuf>,
+    white: Option<PathBuf>,
     /// Undo the camera's white balance and colour matrix, stated in this file, in an sRGB picture
     #[arg(long, value_name = "FILE.json")]
     undo: Option<String>,
@@ -114,10 +116,12 @@ impl ReadingArgs {
         Ok(Reading { options, black_level: self.black_level })
     }
 
+    /// The picture of a white sheet, if stated.
+    ///
     /// # Errors
-    /// As [`Reading::open`] and [`Photograph::into_flat_field`].
-    pub fn flat_field(&self, reading: &Reading) -> Result<Option<FlatField>> {
-        self.white.as_ref().map(|path| reading.open(path)?.into_flat_field(path)).transpose()
+    /// As [`Sheet::open`].
+    pub fn sheet(&self, reading: &Reading) -> Result<Option<Sheet>> {
+        self.white.as_ref().map(|path| Sheet::open(path, reading)).transpose()
     }
 }
 

@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
 
 use vfold::calibrate::Calibration;
 use vfold::cli;
 use vfold::geometry::Panel;
 use vfold::image::{
-    CornersBy, FacetMeasurement, FlatField, Grid, Lens, MeasuredPanels, Photograph, measure_panels,
-    open_sides,
+    CornersBy, FacetMeasurement, Grid, Lens, MeasuredPanels, Photograph, measure_panels, open_sides,
 };
 use vfold::scene::MarkedPanels;
 use vfold::stream::{CalibrationRecord, ImageRecord, Regions, Sample, Scene};
@@ -20,6 +18,7 @@ use super::calibration::{ResolvedCalibration, apply};
 use super::pictures::name;
 use super::reading::{Opened, Reading};
 use super::regions::ResolvedRegions;
+use super::sheet::Sheet;
 use super::{Args, balance, camera, finding, numbers, placing, white};
 
 /// Common settings of all photographs in a run.
@@ -34,14 +33,14 @@ pub struct Setup<'a> {
     pub sight: Option<Sight>,
     pub regions: ResolvedRegions,
     pub calibration: ResolvedCalibration,
-    pub flat_field: Option<Arc<FlatField>>,
+    pub sheet: Option<Sheet>,
 }
 
 impl Setup<'_> {
     pub fn sample(&self, path: &Path, opened: Result<Opened>) -> Result<Sample> {
         let Opened { photograph, sha256 } = opened?;
-        let photograph = match &self.flat_field {
-            Some(flat_field) => photograph.with_flat_field(flat_field.clone(), path)?,
+        let photograph = match &self.sheet {
+            Some(sheet) => sheet.divide(path, photograph)?,
             None => photograph,
         };
         self.check_colours(path, &photograph)?;
@@ -72,11 +71,12 @@ impl Setup<'_> {
         if facets.iter().all(|facet| facet.mean.is_none()) {
             return Err(numbers::none_usable(path, photograph.info(), &facets));
         }
-        let paper = match (&self.flat_field, &args.reading.white) {
-            (Some(sheet), Some(white)) => {
-                self.calibration.sheet(self.scene, &regions, (white.as_path(), sheet), &photograph)?
+        let paper = match &self.sheet {
+            Some(sheet) => {
+                let flat_field = (sheet.path.as_path(), sheet.flat_field());
+                self.calibration.sheet(self.scene, &regions, flat_field, &photograph)?
             }
-            _ => None,
+            None => None,
         };
         let paper = match paper {
             Some(paper) => Some(paper),
@@ -124,14 +124,11 @@ impl Setup<'_> {
         }
         if !args.common.quiet {
             numbers::warnings(path, photograph.info(), processing, &facets)
-                .iter()
-                .for_each(|line| cli::say("vextract", line));
+                .into_iter()
+                .chain(self.sheet.iter().flat_map(|sheet| sheet.differences(path, &photograph)))
+                .for_each(|line| cli::say("vextract", &line));
         }
-        // a warning, as for sensitivities of a stand-in
-        if let Ok(camera) = self.scene.camera()
-            && camera.stands_in.is_none()
-            && let Some(line) = camera::other_than(&camera.name, path, &photograph)
-        {
+        if let Some(line) = camera::other_than(self.scene, path, &photograph) {
             cli::say("vextract", &line);
         }
         let shown = paper.map(|paper| paper.to_string());

@@ -42,7 +42,7 @@ pub fn measure_panels(photograph: &Photograph, panels: &[Grid], margin_px: f64) 
     let outlines: Vec<Homography> = panels.iter().map(|panel| panel.outline.clone()).collect();
     let pixels_sharing_noise = pixels_sharing_noise(photograph, &outlines);
     let facets = measure(photograph, panels, margin_px)?;
-    let processing = processing(photograph, &outlines, &facets);
+    let processing = processing(photograph, panels, margin_px, &facets)?;
     let with_errors = |facet: FacetMeasurement| {
         with_rounding(facet.with_shared_noise(&pixels_sharing_noise), photograph.info())
     };

@@ -14,6 +14,8 @@ pub struct CameraNotes {
     pub exposure_s: Option<f64>,
     /// Focal length over aperture.
     pub f_number: Option<f64>,
+    /// Focal length, mm.
+    pub focal_mm: Option<f64>,
     /// Focal length of equal angle of view on film of 36 x 24 mm, mm.
     pub focal_35mm: Option<f64>,
     /// ISO sensitivity.

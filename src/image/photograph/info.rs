@@ -58,6 +58,12 @@ impl PhotographInfo {
         self.transfer_used == Transfer::Srgb && self.undone.is_none() && (of_camera || !self.transfer_stated)
     }
 
+    /// Width and height of the picture as stored, px.
+    pub(in crate::image) fn stored_size(&self) -> (usize, usize) {
+        // turned back, sides change places where they did when turned upright
+        self.camera.orientation.upright_size((self.width, self.height))
+    }
+
     /// As [`CameraNotes::white_per_klx`], for numbers as the sensor counted them, because cameras brighten
     /// developed pictures.
     #[must_use]

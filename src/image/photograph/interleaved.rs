@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use image::DynamicImage;
-use ndarray::{Array3, ShapeError};
+use ndarray::{ArcArray, Array3, Ix3, ShapeError};
 use rayon::prelude::*;
 
 use super::orientation::Orientation;
@@ -31,11 +31,11 @@ pub(in crate::image) struct Interleaved {
 /// Samples of the upright picture, by row, column and place in the pixel.
 #[derive(Debug, Clone)]
 enum Samples {
-    U8(Array3<u8>),
-    U16(Array3<u16>),
-    F32(Array3<f32>),
+    U8(ArcArray<u8, Ix3>),
+    U16(ArcArray<u16, Ix3>),
+    F32(ArcArray<f32, Ix3>),
     /// Already linear light, infinite where clipped.
-    Light(Array3<f32>),
+    Light(ArcArray<f32, Ix3>),
 }
 
 impl Interleaved {
@@ -66,13 +66,18 @@ impl Interleaved {
     pub fn from_light(light: Array3<f32>) -> Self {
         let (_, _, channels) = light.dim();
         Self {
-            samples: Samples::Light(light),
+            samples: Samples::Light(light.into_shared()),
             colours: colours(channels),
             alpha: None,
             scales: [Scale::LINEAR; 3],
             tables: one_for_all(&Scale::LINEAR),
             development: None,
         }
+    }
+
+    /// The same pixels, turned.
+    pub fn turned(&self, by: Orientation) -> Self {
+        Self { samples: self.samples.turned(by), ..self.clone() }
     }
 
     /// Number of colours per pixel, 1 or 3.
@@ -151,7 +156,7 @@ impl Interleaved {
     #[inline]
     fn visit_stored<T: Copy + Into<f64>>(
         &self,
-        stored: &Array3<T>,
+        stored: &ArcArray<T, Ix3>,
         linear: impl Fn(usize, T) -> f64,
         columns: Range<usize>,
         y: usize,
@@ -179,13 +184,10 @@ impl Samples {
     fn new(picture: DynamicImage, orientation: Orientation) -> Result<Self, ShapeError> {
         let per_pixel = usize::from(picture.color().channel_count());
         let shape = (picture.height() as usize, picture.width() as usize, per_pixel);
-        let u8s =
-            |samples| Array3::from_shape_vec(shape, samples).map(|all| Self::U8(orientation.upright(all)));
-        let u16s =
-            |samples| Array3::from_shape_vec(shape, samples).map(|all| Self::U16(orientation.upright(all)));
-        let f32s =
-            |samples| Array3::from_shape_vec(shape, samples).map(|all| Self::F32(orientation.upright(all)));
-        match picture {
+        let u8s = |samples| ArcArray::from_shape_vec(shape, samples).map(Self::U8);
+        let u16s = |samples| ArcArray::from_shape_vec(shape, samples).map(Self::U16);
+        let f32s = |samples| ArcArray::from_shape_vec(shape, samples).map(Self::F32);
+        let stored = match picture {
             DynamicImage::ImageLuma8(buffer) => u8s(buffer.into_raw()),
             DynamicImage::ImageLumaA8(buffer) => u8s(buffer.into_raw()),
             DynamicImage::ImageRgb8(buffer) => u8s(buffer.into_raw()),
@@ -196,6 +198,17 @@ impl Samples {
             DynamicImage::ImageRgba16(buffer) => u16s(buffer.into_raw()),
             DynamicImage::ImageRgba32F(buffer) => f32s(buffer.into_raw()),
             other => f32s(other.into_rgb32f().into_raw()),
+        };
+        Ok(stored?.turned(orientation))
+    }
+
+    /// The same samples, turned; they stay where they are in memory.
+    fn turned(&self, by: Orientation) -> Self {
+        match self {
+            Self::U8(samples) => Self::U8(by.upright(samples.clone())),
+            Self::U16(samples) => Self::U16(by.upright(samples.clone())),
+            Self::F32(samples) => Self::F32(by.upright(samples.clone())),
+            Self::Light(samples) => Self::Light(by.upright(samples.clone())),
         }
     }
 }

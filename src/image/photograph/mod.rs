@@ -134,7 +134,8 @@ impl Photograph {
     /// Makes a flat field from a photograph of a uniformly coloured sheet; `path` is for errors.
     ///
     /// # Errors
-    /// [`Error::Picture`] if more than half of its pixels are unusable, or a channel has no light.
+    /// [`Error::Picture`] if it was developed for the eye, more than half of its pixels are unusable, or a
+    /// channel has no light.
     ///
     /// # Example
     /// ```
@@ -150,22 +151,37 @@ impl Photograph {
     }
 
     /// The same photograph in uniform light: each pixel divided by that of a flat field normalised to a mean
-    /// of 1; `path` is for errors.
+    /// of 1; `path` is for errors. Pixels of one place of the sensor belong together, however the camera
+    /// noted that it was held.
     ///
     /// # Errors
-    /// [`Error::Picture`] if the flat field differs in size.
+    /// [`Error::Picture`] if the flat field differs in size, colours or camera.
     pub fn with_flat_field(self, flat_field: Arc<FlatField>, path: &Path) -> Result<Self> {
-        let ((w, h), (width, height)) = (flat_field.size(), (self.width(), self.height()));
-        if (w, h) != (width, height) {
-            let problem = format!("the picture has {width} x {height} px, the flat field {w} x {h}");
+        if let Some(problem) = flat_field.unlike(&self) {
             return Err(Error::picture(path, problem, "take both with the same camera and framing"));
         }
+        let held = self.info.camera.orientation;
+        let is_alike = flat_field.photograph().info.camera.orientation == held;
+        let flat_field = if is_alike { flat_field } else { Arc::new(flat_field.held(held)) };
         Ok(Self { flat_field: Some(flat_field), ..self })
     }
 
-    /// Whether each pixel is divided by that of a flat field.
-    pub(in crate::image) fn is_divided(&self) -> bool {
-        self.flat_field.is_some()
+    /// If it is divided by a flat field, the same photograph without it, and that of the flat field, held
+    /// alike.
+    pub(in crate::image) fn before_division(&self) -> Option<(Self, &Self)> {
+        let flat_field = self.flat_field.as_ref()?;
+        Some((Self { flat_field: None, ..self.clone() }, flat_field.photograph()))
+    }
+
+    /// The same sensor's picture, as if its camera had been held in this orientation.
+    fn held(&self, orientation: Orientation) -> Self {
+        let (width, height) = orientation.upright_size(self.info.stored_size());
+        let camera = CameraNotes { orientation, ..self.info.camera.clone() };
+        Self {
+            pixels: self.pixels.turned(self.info.camera.orientation.inverse()).turned(orientation),
+            flat_field: self.flat_field.as_ref().map(|flat_field| Arc::new(flat_field.held(orientation))),
+            info: PhotographInfo { camera, width, height, ..self.info.clone() },
+        }
     }
 
     /// Width of the upright picture, px.
@@ -184,6 +200,11 @@ impl Photograph {
     #[must_use]
     pub fn channels(&self) -> usize {
         self.pixels.channels()
+    }
+
+    /// Whether its channels have different numbers.
+    fn has_colours(&self) -> bool {
+        self.channels() > 1 && !self.info.is_grey
     }
 
     /// What is wrong with the colours of the picture, if it is to be one by a camera with this many channels.

@@ -1,6 +1,6 @@
 //! How a camera was held: the eight orientations of EXIF, as permutations of an array's axes.
 
-use ndarray::{Array, Axis, Dimension};
+use ndarray::{ArrayBase, Axis, Dimension, RawData};
 
 /// The orientation of a stored picture, 1 to 8 (EXIF 2.32, tag 274).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,7 +42,7 @@ impl Orientation {
 
     /// Turns a stored picture upright without moving pixels in memory: its first axis is the rows, its second
     /// the columns.
-    pub(super) fn upright<T, D: Dimension>(self, mut stored: Array<T, D>) -> Array<T, D> {
+    pub(super) fn upright<S: RawData, D: Dimension>(self, mut stored: ArrayBase<S, D>) -> ArrayBase<S, D> {
         let (rows, columns) = (Axis(0), Axis(1));
         if self.mirrors_rows() {
             stored.invert_axis(rows);
@@ -54,6 +54,16 @@ impl Orientation {
             stored.swap_axes(rows.index(), columns.index());
         }
         stored
+    }
+
+    /// The orientation that undoes this one.
+    pub(super) fn inverse(self) -> Self {
+        // quarter turns to either side; the others undo themselves
+        match self.0 {
+            6 => Self(8),
+            8 => Self(6),
+            other => Self(other),
+        }
     }
 
     /// Whether the upright picture begins with the last stored column.
@@ -68,5 +78,20 @@ impl Orientation {
 
     fn transposed(self) -> bool {
         self.0 >= 5
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ndarray::array;
+
+    #[test]
+    fn inverses_undo() {
+        let stored = array![[1, 2, 3], [4, 5, 6]];
+        for orientation in (1..=8).filter_map(Orientation::from_exif) {
+            let upright = orientation.upright(stored.clone());
+            assert_eq!(orientation.inverse().upright(upright), stored, "{orientation:?}");
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::interleaved::Interleaved;
+use super::orientation::Orientation;
 use super::pixel::Pixel;
 use super::sites::Sites;
 use crate::image::numbers::Scale;
@@ -15,6 +16,14 @@ pub(super) enum Pixels {
 }
 
 impl Pixels {
+    /// The same pixels, turned.
+    pub fn turned(&self, by: Orientation) -> Self {
+        match self {
+            Self::Interleaved(pixels) => Self::Interleaved(Box::new(pixels.turned(by))),
+            Self::Sites(sites) => Self::Sites(sites.turned(by)),
+        }
+    }
+
     /// Number of colours per pixel: 3, or 1 for a grey picture.
     pub fn channels(&self) -> usize {
         match self {

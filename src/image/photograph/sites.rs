@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use ndarray::Array2;
+use ndarray::{ArcArray2, Array2};
 use rayon::prelude::*;
 
 use super::mosaic::Mosaic;
@@ -18,7 +18,7 @@ use crate::image::numbers::Scale;
 #[derive(Debug, Clone)]
 pub(super) struct Sites {
     /// Linear light of the upright picture by row and column, infinite where clipped.
-    light: Array2<f32>,
+    light: ArcArray2<f32>,
     /// That of the upright picture.
     mosaic: Mosaic,
 }
@@ -31,7 +31,14 @@ impl Sites {
     pub fn new(light: Array2<f32>, mosaic: &Mosaic, orientation: Orientation) -> Option<Self> {
         let (height, width) = light.dim();
         let mosaic = mosaic.upright(orientation, (width, height));
-        (width.min(height) >= NEIGHBOURS).then(|| Self { light: orientation.upright(light), mosaic })
+        let light = orientation.upright(light.into_shared());
+        (width.min(height) >= NEIGHBOURS).then_some(Self { light, mosaic })
+    }
+
+    /// The same sites, turned.
+    pub fn turned(&self, by: Orientation) -> Self {
+        let (height, width) = self.light.dim();
+        Self { light: by.upright(self.light.clone()), mosaic: self.mosaic.upright(by, (width, height)) }
     }
 
     /// Visits the sites of one colour in `columns` of row `y`, with their columns.

@@ -1,12 +1,13 @@
 //! From the bytes of a picture file of any format to stored samples.
 
-use std::io::{BufRead, Read, Seek};
+use std::io::{BufRead, Cursor, Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, Limits};
 
 use super::exif::{self, Tags};
+use super::exif_block::block as exif_block;
 use super::jpeg::Jpeg;
 use super::levels::Levels;
 use super::openexr::{self, Kind};
@@ -43,7 +44,7 @@ pub(super) struct Picture {
 pub(super) fn decode(file: &mut PictureFile) -> Result<Decoded> {
     let (path, length) = (&file.path().to_owned(), file.length());
     let failed = |source| Error::file(path.display(), source);
-    // all of a TIFF file is read to find its directories
+    // as much as EXIF's block in a TIFF file takes
     room::ask(length, &path.display().to_string(), TOO_LARGE)?;
     file.rewind().map_err(failed)?;
     let head = file.fill_buf().map_err(failed)?;
@@ -67,6 +68,7 @@ pub(super) fn decode(file: &mut PictureFile) -> Result<Decoded> {
     }
     not_named_raw(path, format)?;
     let (pixels, block, mut stated) = foreseen(path, || decode_whole(path, file, length, format))?;
+    let block = block.map(|bytes| exif_block(&mut Cursor::new(bytes))).transpose().map_err(failed)?;
     let Tags { camera, stated: by_exif, density } = exif::read(block, 0);
     pixel_shape::check(path, "EXIF resolution", density)?;
     stated.extend(by_exif);
@@ -81,7 +83,7 @@ fn decode_tiff(file: &mut PictureFile, path: &Path, length: u64) -> Result<Decod
     }
     let format = ImageFormat::Tiff;
     not_named_raw(path, format)?;
-    let block = exif::tiff_tags(file).map_err(|source| Error::file(path.display(), source))?;
+    let block = exif_block(file).map_err(|source| Error::file(path.display(), source))?;
     let Tags { mut camera, stated: by_exif, .. } = exif::read(Some(block), tiff.page());
     camera.notes.extend(tiff.note());
     let mut stated = tiff.statements();

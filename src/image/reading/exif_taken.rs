@@ -1,13 +1,14 @@
 //! Place, time and light according to EXIF.
 
-use exif::{Exif, In, Rational, Tag, Value};
+use exif::{Rational, Tag, Value};
 
+use super::exif::Fields;
 use super::taken::{by_clock, local, other_light, place_deg, universal};
 use crate::image::photograph::Taken;
 
 /// Missing or implausible fields are omitted.
-pub(super) fn taken(exif: &Exif) -> Taken {
-    let field = |tag| exif.get_field(tag, In::PRIMARY).map(|field| &field.value);
+pub(super) fn taken(fields: &Fields) -> Taken {
+    let field = |tag| fields.get(tag);
     let text = |tag| ascii(field(tag)?).map(|text| String::from_utf8_lossy(text).trim().to_owned());
     let number = |tag| field(tag).and_then(|value| value.get_uint(0));
     let place_deg = || {

@@ -5,6 +5,7 @@ mod code_points;
 mod decode;
 mod eight_bits;
 mod exif;
+mod exif_block;
 mod exif_taken;
 mod icc;
 mod jpeg;

@@ -145,6 +145,7 @@ fn camera_notes(image: &RawImage, exif: &Exif) -> CameraNotes {
         model: text(&image.model),
         exposure_s: ratio(&exif.exposure_time),
         f_number: ratio(&exif.fnumber),
+        focal_mm: ratio(&exif.focal_length),
         iso: exif.iso_speed_ratings.map(u32::from).or(exif.iso_speed),
         orientation: Orientation::from_exif(exif.orientation.unwrap_or(1).into()).unwrap_or_default(),
         xyz_to_camera: image.color_matrix.get(&Illuminant::D65).and_then(|matrix| xyz_to_camera(matrix)),
