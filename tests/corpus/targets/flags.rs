@@ -3,7 +3,7 @@
 use vfold::cli;
 use vfold::image::{Mosaic, PANEL_CORNERS, Transfer, parse_corners};
 use vfold::spectrum::{Spectrum, WavelengthGrid};
-use vfold::stream::{camera, illuminant, reflectances};
+use vfold::stream::specs;
 
 use super::{assert_finite, taken};
 
@@ -14,12 +14,12 @@ pub fn spec(bytes: &[u8]) {
     if text.contains('/') || text.contains('.') && text.parse::<f64>().is_err() && !is_sky {
         return;
     }
-    if let Some(spectra) = taken(reflectances(text)) {
+    if let Some(spectra) = taken(specs().reflectances(text)) {
         let values = spectra.iter().flat_map(Spectrum::values);
         assert!(!spectra.is_empty() && values.into_iter().all(|r| (0.0..=1.0).contains(r)));
     }
-    taken(illuminant(text)).iter().for_each(|light| assert_finite("illuminant", light.values()));
-    taken(camera(text)).iter().for_each(|camera| assert!(!camera.channels.is_empty()));
+    taken(specs().illuminant(text)).iter().for_each(|light| assert_finite("illuminant", light.values()));
+    taken(specs().camera(text)).iter().for_each(|camera| assert!(!camera.channels.is_empty()));
 }
 
 /// What flags take besides.

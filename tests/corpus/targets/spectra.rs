@@ -2,7 +2,7 @@
 
 use vfold::spectrum::formats::{Measured, write};
 use vfold::spectrum::{Outside, Spectrum, WavelengthGrid};
-use vfold::stream::{camera, illuminant, reflectances};
+use vfold::stream::specs;
 
 use super::{assert_close, assert_finite, taken, with_file};
 
@@ -26,14 +26,14 @@ pub fn json(bytes: &[u8]) {
 fn read_as(ending: &str, bytes: &[u8]) {
     with_file(&format!("a.{ending}"), bytes, |path| {
         let spec = path.to_str().unwrap();
-        if let Some(illuminant) = taken(illuminant(spec)) {
+        if let Some(illuminant) = taken(specs().illuminant(spec)) {
             check(&illuminant);
             assert!(illuminant.values().iter().all(|power| *power >= 0.0));
         }
-        if let Some(camera) = taken(camera(spec)) {
+        if let Some(camera) = taken(specs().camera(spec)) {
             camera.channels.iter().for_each(check);
         }
-        if let Some(spectra) = taken(reflectances(spec)) {
+        if let Some(spectra) = taken(specs().reflectances(spec)) {
             spectra.iter().for_each(check);
             check_reflectances(&spectra);
         }
@@ -63,7 +63,7 @@ fn check_reflectances(spectra: &[Spectrum]) {
             if taken(write(path, samples)).is_none() {
                 return;
             }
-            let again = reflectances(path.to_str().unwrap()).unwrap();
+            let again = specs().reflectances(path.to_str().unwrap()).unwrap();
             assert_eq!(again.len(), samples.len(), "{name}");
             for (again, sample) in again.iter().zip(samples) {
                 assert_close(name, again.wavelengths_nm(), &sample.wavelengths_nm);
