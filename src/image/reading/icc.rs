@@ -38,7 +38,7 @@ fn of_profile(says: Result<Transfer, String>) -> Statement {
     Statement { by: "ICC profile", says }
 }
 
-/// Why a profile is none of a picture like this, or says it elsewhere than in its curves. One of RGB fits grey
+/// Why a profile is none of a picture like this, or says it elsewhere than in its curves. RGB fits grey
 /// numbers, too: these are three equal ones.
 fn objection(bytes: &[u8], profile: &ColorProfile, is_in_colour: bool) -> Option<&'static str> {
     use ProfileClass::{ColorSpace, DisplayDevice, InputDevice, OutputDevice};
@@ -63,7 +63,7 @@ fn tags(bytes: &[u8]) -> impl Iterator<Item = [u8; 4]> {
 }
 
 fn meaning(profile: &ColorProfile) -> Result<Transfer, &'static str> {
-    let curve = of_curves(profile)?;
+    let curve = of_tones(profile)?;
     match &profile.cicp {
         Some(points) if of_points(points) != Ok(curve) => Err("whose code points contradict its curve"),
         _ => Ok(curve),
@@ -75,7 +75,7 @@ fn of_points(points: &CicpProfile) -> Result<Transfer, String> {
     code_points::transfer([points.color_primaries as u8, points.transfer_characteristics as u8, 0], true)
 }
 
-fn of_curves(profile: &ColorProfile) -> Result<Transfer, &'static str> {
+fn of_tones(profile: &ColorProfile) -> Result<Transfer, &'static str> {
     match profile.color_space {
         DataColorSpace::Gray => curve(profile.gray_trc.as_ref()),
         DataColorSpace::Rgb => {
