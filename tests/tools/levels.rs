@@ -134,11 +134,11 @@ fn a_black_level_that_was_not_subtracted_shows() {
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
 }
 
-/// Makes `sheet.exr`, white in light that falls off, with the noise of 20000 electrons at 1; then `uneven.exr`,
-/// the photograph in that light.
+/// Makes `sheet.exr`, white in light that falls off, with the noise of 20000 electrons at 1; then
+/// `uneven.exr`, the photograph in that light.
 const SHEET: &str = "oiiotool --pattern noise:type=gaussian:mean=0:stddev=7.07e-3 480x360 3 -o noise.exr
-    oiiotool --pattern fill:topleft=.45,.9,.7:topright=.36,.72,.56:bottomleft=.4,.8,.62:bottomright=.3,.6,.46 \
-        480x360 3 -o light.exr
+    corners=topleft=.45,.9,.7:topright=.36,.72,.56:bottomleft=.4,.8,.62:bottomright=.3,.6,.46
+    oiiotool --pattern fill:$corners 480x360 3 -o light.exr
     oiiotool light.exr --powc .5 noise.exr --mul light.exr --add -o sheet.exr
     oiiotool light.exr --mulc 2,1,1.3 photo.exr --mul -o uneven.exr";
 
