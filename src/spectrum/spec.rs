@@ -282,9 +282,12 @@ mod tests {
 
     #[test]
     fn values_that_cannot_be_are_refused() {
-        for (value, want) in
-            [(-0.1, "set negative"), (1.44, "fluorescent"), (-44.0, "set negative"), (444.0, "rescale")]
-        {
+        for (value, want) in [
+            (-0.1, "set negative"),
+            (1.44, "fluorescent"),
+            (-44.0, "set negative"),
+            (444.0, "give fractions"),
+        ] {
             with_csv(&format!("nm,r\n400,0.1\n700,{value}\n"), |path| {
                 let message = message(reflectances(path));
                 assert!(message.contains(&format!("reflectance {value} is outside")), "{message}");
