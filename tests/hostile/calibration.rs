@@ -138,7 +138,7 @@ END
             case(
                 "sh marked --white-region '1,1 9,1 9,9 1,9'",
                 1,
-                &["white paper", "no light", "--white-region"],
+                &["white region", "no light", "--white-region"],
             ),
             case(
                 "sh marked --white-region '1,1 9,1 9,9 1,9' --white-reflectance 0.9",

@@ -22,7 +22,7 @@ fn geometry() {
             case("vkernel --angle-deg 0.1", 2, &["--angle-deg", "0.1°", "--mesh facets"]),
             case("vkernel --angle-deg 1e-300", 2, &["--angle-deg", "--mesh facets"]),
             case("vkernel --panel infxinf", 2, &["--panel"]),
-            case("vkernel --panel1-depth 0", 2, &["--panel1-depth", "above 0"]),
+            case("vkernel --panel1-depth 0", 2, &["--panel1-depth", "0.001 to 1000"]),
             case("vkernel --panel1-depth NaN", 2, &["--panel1-depth", "NaN"]),
             case("vkernel --panel1-depth 1001", 2, &["--panel1-depth", "1000"]),
             case("vkernel --facets 0x10", 2, &["--facets", "at least 1x1"]),
