@@ -225,7 +225,11 @@ fn estimates() {
     folder.sh(&format!("{STREAM}\nvestimate good.ndjson -o estimated.ndjson"));
     folder.sh("printf 'nm,Red,white\\n380,0.1,0.9\\n780,0.1,0.9\\n' > measured.csv");
     for (edit, flags, says) in [
-        ("s/\"id\":\"0.5\"/\"id\":\"cc24:red\"/", "--truth measured.csv", "(nearest: measured:Red); rename"),
+        (
+            "s/\"id\":\"0.5\"/\"id\":\"cc24:red\"/",
+            "--truth measured.csv",
+            "(nearest: measured:Red); give one",
+        ),
         ("s/\"estimate\":/\"guess\":/", "", "run the samples through vestimate first"),
         ("2s/\\(\"estimate\".*\"wavelengths_nm\":\\[\\)400/\\1401/", "", "estimate it again"),
         ("s/\"truth\":/\"guess\":/", "", "give --truth SPEC"),
@@ -236,7 +240,7 @@ fn estimates() {
             "",
             "estimate.fit",
         ),
-        ("", "--truth cc24", "--truth cc24 has no '0.5' among its 24 spectra; rename"),
+        ("", "--truth cc24", "--truth cc24 has no '0.5' among its 24 spectra; give one"),
     ] {
         assert_marked(&folder, &format!("sed '{edit}' estimated.ndjson | vscore {flags}"), says);
     }
