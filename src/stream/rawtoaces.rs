@@ -39,8 +39,8 @@ const NM: RangeInclusive<f64> = 100.0..=3000.0;
 const EXAMPLE: &str = "{\"spectral_data\": {\"index\": {\"main\": [\"R\", \"G\", \"B\"]}, \
                        \"data\": {\"main\": {\"380\": [r, g, b], ..}}}}";
 
-/// Resolves a SPEC of a camera, an illuminant or reflectances as [`crate::spectrum`] does, and rawtoaces files,
-/// whose names end in `.json`.
+/// Resolves a SPEC of a camera, an illuminant or reflectances as [`crate::spectrum`] does, and rawtoaces
+/// files, whose names end in `.json`.
 ///
 /// # Example
 /// ```

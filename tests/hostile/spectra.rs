@@ -28,7 +28,11 @@ fn tables_of_spectra() {
             for nm; do printf '<SpectralData wavelength=\042%s\042>0.1</SpectralData>\n' $nm; done
             echo '</SpectralDistribution>'
         }
-        { printf '<IESTM2714 version=\0421.0\042>\n'; spectrum 300 400 700; spectrum 300 700; echo '</IESTM2714>'; } > two.spdx
+        {
+            printf '<IESTM2714 version=\0421.0\042>\n'
+            spectrum 300 400 700; spectrum 300 700
+            echo '</IESTM2714>'
+        } > two.spdx
         : > empty.csv
         head -c 300 /bin/sh > binary.csv
         printf 'nm,r\n400,0\n700,0\n' > dark.csv",

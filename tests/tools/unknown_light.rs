@@ -27,7 +27,9 @@ fn rms(a: &[f64], b: &[f64]) -> f64 {
 fn a_scene_that_is_lit_anew_keeps_nothing_of_its_old_light() {
     let run = Workdir::new().sh(&format!(
         "vkernel --angle-deg 50 -o fold.json
-        extract() {{ vextract -q '{PHOTO}' --camera canon-5d-mark-ii {PANELS} --no-history \"$@\" | head -n 1; }}
+        extract() {{
+            vextract -q '{PHOTO}' --camera canon-5d-mark-ii {PANELS} --no-history \"$@\" | head -n 1
+        }}
         vforward -q fold.json --reflectance 0.5 --illuminant sun:40deg --sky-illuminant sky --no-history |
             head -n 1 > blue.json
         extract --scene fold.json --illuminant unknown > unknown.json

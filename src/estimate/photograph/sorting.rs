@@ -76,8 +76,8 @@ impl Series {
     }
 }
 
-/// Usual folds, the `ideal` ones, dull days and sheets without bounces in order of evidence under all spectra,
-/// with the trace of their searches: in this order, the first from `start`.
+/// Usual folds, the `ideal` ones, dull days and sheets without bounces in order of evidence under all
+/// spectra, with the trace of their searches: in this order, the first from `start`.
 pub fn sorted(
     photographs: &Photographs,
     prior: &Prior,

@@ -23,13 +23,13 @@ pub(super) struct Tags {
 }
 
 /// The fields of a page of a file, or else of its first.
-pub(super) struct Fields {
+struct Fields {
     exif: Exif,
     page: In,
 }
 
 impl Fields {
-    pub fn get(&self, tag: Tag) -> Option<&Value> {
+    fn get(&self, tag: Tag) -> Option<&Value> {
         let of = |page| self.exif.get_field(tag, page).map(|field| &field.value);
         of(self.page).or_else(|| of(In::PRIMARY))
     }
@@ -56,7 +56,7 @@ pub(super) fn read(block: Option<Vec<u8>>, page: usize) -> Tags {
         orientation: field(Tag::Orientation)
             .map_or(Orientation::UPRIGHT, |value| orientation(value, &mut notes)),
         xyz_to_camera: fields.as_ref().and_then(xyz_to_camera),
-        taken: fields.as_ref().map(taken).unwrap_or_default(),
+        taken: taken(field),
         notes,
     };
     let density = |tag| field(tag).and_then(positive);

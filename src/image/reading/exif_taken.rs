@@ -2,13 +2,11 @@
 
 use exif::{Rational, Tag, Value};
 
-use super::exif::Fields;
 use super::taken::{by_clock, local, other_light, place_deg, universal};
 use crate::image::photograph::Taken;
 
-/// Missing or implausible fields are omitted.
-pub(super) fn taken(fields: &Fields) -> Taken {
-    let field = |tag| fields.get(tag);
+/// From the values that tags have; missing or implausible ones are omitted.
+pub(super) fn taken<'v>(field: impl Fn(Tag) -> Option<&'v Value>) -> Taken {
     let text = |tag| ascii(field(tag)?).map(|text| String::from_utf8_lossy(text).trim().to_owned());
     let number = |tag| field(tag).and_then(|value| value.get_uint(0));
     let place_deg = || {
