@@ -1,4 +1,4 @@
-//! The form of a file by its first bytes: text in UTF-8 or UTF-16, or another known format.
+//! Files of text, and their form by the first bytes: UTF-8 or UTF-16, or another known format.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -99,10 +99,31 @@ impl Text {
     }
 }
 
+/// Larger than any table of spectra, or a list of regions for a hundred thousand photographs.
+const MAX_BYTES: u64 = 64 << 20;
+/// Describes a file that is larger.
+pub(crate) const TOO_LARGE: &str = "the file is larger than 64 MiB";
+
+/// All of a file, none if it is larger than 64 MiB; `-` is standard input.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be read.
+pub(crate) fn bytes(path: &Path) -> Result<Option<Vec<u8>>> {
+    let failed = |source| Error::file(path.display(), source);
+    let file: Box<dyn Read> = if path == Path::new("-") {
+        Box::new(io::stdin())
+    } else {
+        Box::new(File::open(path).map_err(failed)?)
+    };
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    Ok((bytes.len() as u64 <= MAX_BYTES).then_some(bytes))
+}
+
 /// The lines of a text in UTF-8 or UTF-16; `-` is standard input.
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be read, or is no such text.
+/// [`Error::File`] if it cannot be read, is larger than 64 MiB or is no such text.
 ///
 /// # Example
 /// ```
@@ -113,15 +134,8 @@ impl Text {
 /// # Ok::<(), vfold::Error>(())
 /// ```
 pub fn lines(path: &Path) -> Result<Vec<String>> {
-    let failed = |source| Error::file(path.display(), source);
-    let mut bytes = Vec::new();
-    let mut file: Box<dyn Read> = if path == Path::new("-") {
-        Box::new(io::stdin())
-    } else {
-        Box::new(File::open(path).map_err(failed)?)
-    };
-    file.read_to_end(&mut bytes).map_err(failed)?;
-    let other = |what: String| failed(io::Error::new(io::ErrorKind::InvalidData, what));
+    let other = |what: String| Error::file(path.display(), io::Error::new(io::ErrorKind::InvalidData, what));
+    let bytes = bytes(path)?.ok_or_else(|| other(TOO_LARGE.to_owned()))?;
     let Text { text, is_unicode } = Text::decode(&bytes).map_err(|form| {
         let remedy = form.way_out().map(|remedy| format!("; {remedy}"));
         other(format!("the file is {}{}", form.name, remedy.unwrap_or_default()))
@@ -204,6 +218,18 @@ mod tests {
             let form = Text::decode(bytes).err().unwrap();
             assert_eq!((form.name, form.way_out().as_deref()), (name, way_out));
         }
+    }
+
+    #[test]
+    fn no_more_is_read_than_a_text_may_hold() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("list.txt");
+        let file = File::create(&path).unwrap();
+        file.set_len(MAX_BYTES).unwrap();
+        assert!(bytes(&path).unwrap().is_some());
+        file.set_len(MAX_BYTES + 1).unwrap();
+        assert!(bytes(&path).unwrap().is_none());
+        assert!(lines(&path).unwrap_err().to_string().contains(TOO_LARGE));
     }
 
     /// Lines read one by one must be in UTF-8.

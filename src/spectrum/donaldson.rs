@@ -125,14 +125,10 @@ impl Donaldson {
         };
         let excitation_nm = columns.iter().map(wavelength_nm).collect::<Result<Vec<_>>>()?;
         let [first, others @ ..] = columns.as_slice() else {
-            return Err(Error::spectrum(
-                path,
-                "it has no columns".to_owned(),
-                "write one per excitation wavelength",
-            ));
+            return Err(Error::spectrum(path, "it has no columns", "write one per excitation wavelength"));
         };
         if others.iter().any(|column| column.wavelengths_nm() != first.wavelengths_nm()) {
-            let problem = "its columns have different wavelengths".to_owned();
+            let problem = "its columns have different wavelengths";
             return Err(Error::spectrum(
                 path,
                 problem,

@@ -1,18 +1,14 @@
 //! JSON files passed to flags.
 
 use std::fmt::Display;
-use std::fs::File;
-use std::io::{Read, stdin};
+use std::path::Path;
 
 use serde::de::DeserializeOwned;
 
 use super::fields::problem;
 use super::piped::stdin_is_pipe;
 use crate::error::{Error, Result};
-use crate::files::forms::Text;
-
-/// Larger than a list of regions for a hundred thousand photographs.
-const MAX_BYTES: u64 = 64 << 20;
+use crate::files::forms::{TOO_LARGE, Text, bytes};
 
 /// Reads a JSON file, or standard input for `-`; `example` shows its form.
 ///
@@ -42,18 +38,9 @@ pub(super) fn read_all<T: DeserializeOwned>(path: &str, example: &str) -> Result
 }
 
 fn text(path: &str, example: &str) -> Result<String> {
-    let failed = |source| Error::file(path, source);
-    let mut bytes = Vec::new();
-    let file: Box<dyn Read> = match path {
-        "-" => Box::new(stdin()),
-        _ => Box::new(File::open(path).map_err(failed)?),
-    };
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    let bytes = bytes(Path::new(path))?.ok_or_else(|| fault(path, 1, TOO_LARGE, example))?;
     if bytes.is_empty() && path == "-" && stdin_is_pipe() {
         return Err(Error::EmptyPipe);
-    }
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(fault(path, 1, "the file is larger than 64 MiB", example));
     }
     let Text { text, is_unicode } = Text::decode(&bytes).map_err(|form| {
         let (problem, remedy) = (format!("the file is {}", form.name), form.way_out());

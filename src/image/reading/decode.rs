@@ -169,7 +169,7 @@ fn decode_whole(
     length: u64,
     format: ImageFormat,
 ) -> Result<PictureAndMore> {
-    let Header { mut stated, has_profile, exif } = header(path, file, format)?;
+    let Header { mut stated, has_profile, exif, jpeg } = header(path, file, format)?;
     let mut decoder = image_decoder(file, format).map_err(|error| undecodable(path, error))?;
     let (dimensions, bytes) = (decoder.dimensions(), decoder.total_bytes());
     check_size(path, dimensions, bytes, length)?;
@@ -196,12 +196,15 @@ fn decode_whole(
             picture.map_err(|error| undecodable(path, error))?
         }
     };
-    match format {
-        ImageFormat::OpenExr => alpha::divide(path, &mut picture)?,
-        ImageFormat::Jpeg if !jpeg_data::are_whole(&whole(path, file)?, &picture) => {
+    if format == ImageFormat::OpenExr {
+        alpha::divide(path, &mut picture)?;
+    }
+    if let Some(jpeg) = jpeg {
+        // a copy of the file, and of the picture once more
+        room::ask(length + 2 * bytes, &path.display().to_string(), TOO_LARGE)?;
+        if !jpeg_data::are_whole(&jpeg, &picture) {
             return Err(ends_too_early(path));
         }
-        _ => {}
     }
     Ok((picture, exif, stated))
 }
@@ -221,6 +224,8 @@ struct Header {
     /// Whether it has an ICC profile, readable or not.
     has_profile: bool,
     exif: Option<Vec<u8>>,
+    /// All of a JPEG file.
+    jpeg: Option<Vec<u8>>,
 }
 
 fn header(path: &Path, file: &mut PictureFile, format: ImageFormat) -> Result<Header> {
@@ -229,7 +234,7 @@ fn header(path: &Path, file: &mut PictureFile, format: ImageFormat) -> Result<He
             let chunks = Chunks::read(file);
             pixel_shape::check(path, "chunk pHYs", chunks.density())?;
             let (stated, has_profile) = (chunks.statements(), chunks.has_profile());
-            Ok(Header { stated, has_profile, exif: chunks.exif() })
+            Ok(Header { stated, has_profile, exif: chunks.exif(), jpeg: None })
         }
         ImageFormat::OpenExr => match openexr::kind(file) {
             Some(Kind::Colours(stated)) => Ok(Header { stated, ..Header::default() }),
@@ -246,7 +251,10 @@ fn header(path: &Path, file: &mut PictureFile, format: ImageFormat) -> Result<He
             match jpeg.components() {
                 Some(4) => Err(inks(path)),
                 Some(_) if !jpeg.is_complete() => Err(ends_too_early(path)),
-                _ => Ok(Header { has_profile: jpeg.has_profile(), ..Header::default() }),
+                _ => {
+                    let has_profile = jpeg.has_profile();
+                    Ok(Header { has_profile, jpeg: Some(bytes), ..Header::default() })
+                }
             }
         }
         _ => Ok(Header::default()),

@@ -117,15 +117,17 @@ impl Chunk {
         };
         let checksum = u32::from_be_bytes(*checksum);
         content.truncate(content.len() - CHECKSUM_BYTES);
-        let is_intact = checksum == crc32(kind.iter().chain(&content));
+        let is_intact = checksum == crc32(kind, &content);
         Ok(Some(Self { kind, content: is_intact.then_some(content) }))
     }
 }
 
-/// PNG, third edition, annex D.
-fn crc32<'a>(bytes: impl Iterator<Item = &'a u8>) -> u32 {
-    let step = |crc: u32, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
-    !bytes.fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
+/// The checksum of a chunk.
+fn crc32(kind: [u8; 4], content: &[u8]) -> u32 {
+    let mut hasher = crc32fast::Hasher::new();
+    hasher.update(&kind);
+    hasher.update(content);
+    hasher.finalize()
 }
 
 fn points(content: &[u8]) -> Says {

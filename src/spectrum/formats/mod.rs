@@ -17,21 +17,17 @@ pub(super) use csv::parse as parse_csv;
 pub use table::Table;
 pub use write::{Measured, check_ending, write};
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 use super::Spectrum;
 use crate::error::{Error, Result};
-use crate::files::forms::{Form, Text};
+use crate::files::forms::{Form, TOO_LARGE, Text, bytes};
 use crate::message::printable;
 use place::Place;
 use table::MAX_SPECTRA;
 
 /// Endings of files that can be read.
 pub(super) const ENDINGS: [&str; 6] = ["csv", "sp", "ti3", "txt", "spdx", "json"];
-/// Far above any measured set: a larger file is not a table of spectra.
-const MAX_BYTES: u64 = 64 << 20;
 /// Reads the spectra of a JSON text; the path is for error messages.
 pub type JsonReader = fn(path: &str, text: &str) -> Result<Table>;
 
@@ -40,8 +36,10 @@ pub type JsonReader = fn(path: &str, text: &str) -> Result<Table>;
 /// # Errors
 /// [`Error::File`] if it cannot be read, [`Error::Table`] with the offending line, or as `json`.
 pub(super) fn read(path: &str, json: JsonReader) -> Result<Table> {
-    let Text { text, is_unicode } = Text::decode(&read_bytes(path)?).map_err(|form| no_table(path, &form))?;
-    let not_unicode = || Place { path, line: 1 }.fails("not UTF-8 text", "save it as CSV in UTF-8");
+    let at = Place { path, line: 1 };
+    let bytes = bytes(Path::new(path))?.ok_or_else(|| at.fails(TOO_LARGE, "split it into smaller tables"))?;
+    let Text { text, is_unicode } = Text::decode(&bytes).map_err(|form| no_table(at, &form))?;
+    let not_unicode = || at.fails("not UTF-8 text", "save it as CSV in UTF-8");
     let mut table = if has_ending(path, &["json"]) {
         json(path, &text)
     } else if has_ending(path, &["spdx"]) || text.starts_with('<') {
@@ -59,29 +57,18 @@ pub(super) fn read(path: &str, json: JsonReader) -> Result<Table> {
     }?;
     if table.spectra.len() > MAX_SPECTRA {
         let problem = format!("{} spectra, more than {MAX_SPECTRA}", table.spectra.len());
-        return Err(Place { path, line: 1 }.fails(problem, "split it into smaller tables"));
+        return Err(at.fails(problem, "split it into smaller tables"));
     }
     let shown = |spectrum: Spectrum| spectrum.renamed(|name| printable(name).into_owned());
     table.spectra = table.spectra.into_iter().map(shown).collect();
     Ok(table)
 }
 
-fn read_bytes(path: &str) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(|e| Error::file(path, e))?;
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| Error::file(path, e))?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let at = Place { path, line: 1 };
-        return Err(at.fails("the file is larger than 64 MiB", "split it into smaller tables"));
-    }
-    Ok(bytes)
-}
-
 /// The error for a file that is not text.
-fn no_table(path: &str, form: &Form) -> Error {
+fn no_table(at: Place, form: &Form) -> Error {
     const EXPORT: &str = "save the table as CSV in UTF-8";
     let remedy = form.way_out().map_or(EXPORT.to_owned(), |way_out| format!("{way_out}, or {EXPORT}"));
-    Place { path, line: 1 }.fails(format!("the file is {}", form.name), remedy)
+    at.fails(format!("the file is {}", form.name), remedy)
 }
 
 /// True if a file name ends in one of these, in any case.
@@ -107,7 +94,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("big.csv");
         let message = || read(path.to_str().unwrap(), no_json).unwrap_err().to_string();
-        File::create(&path).unwrap().set_len(MAX_BYTES + 1).unwrap();
+        std::fs::File::create(&path).unwrap().set_len((64 << 20) + 1).unwrap();
         assert!(message().contains("larger than 64 MiB"), "{}", message());
         std::fs::write(&path, b"wavelength,\xff\n").unwrap();
         assert!(message().contains("save it as CSV in UTF-8"), "{}", message());
