@@ -10,7 +10,7 @@ use nalgebra::{Matrix4, Matrix4x3, Vector3};
 /// Number of coefficients per channel: two planes of light, or a cubic polynomial.
 pub(super) const COEFFICIENTS: usize = 4;
 /// Number of coefficients for one side of an edge.
-const OF_A_SIDE: f64 = 2.0;
+pub(super) const OF_A_SIDE: f64 = 2.0;
 /// Powers of the distance that are summed, by themselves and times the light.
 const POWERS: usize = 7;
 const POWERS_OF_LIGHT: usize = 4;
@@ -61,6 +61,11 @@ impl Sums {
     /// Number of pixels.
     pub fn count(&self) -> f64 {
         self.powers[0]
+    }
+
+    /// Mean light; not a number without pixels.
+    pub fn mean(&self) -> Vector3<f64> {
+        self.light[0] / self.count()
     }
 
     /// Sum of squared residuals of a plane of light in each channel; none if the fit is not unique or pixels

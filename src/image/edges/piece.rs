@@ -3,11 +3,13 @@
 //! The model is two planes of light with the edge between them, mixed by area in the pixels that the edge
 //! crosses: a sheet may be as bright as the table, but of another colour. A change that smooth light explains
 //! as well is no edge. Nor may the edge be the end of a sheet's shadow: up to its edge the sheet must
-//! continue as it is further inwards.
+//! continue as it is further inwards, and the strongest edge may lie beyond that of the sheet.
+
+use std::ops::Range;
 
 use nalgebra::{Vector2, Vector3};
 
-use super::fit::{COEFFICIENTS, Fit, Share, Sums};
+use super::fit::{COEFFICIENTS, Fit, OF_A_SIDE, Share, Sums};
 
 /// Distances at which an edge is tried.
 pub(super) const PLACES: usize = 25;
@@ -25,6 +27,10 @@ const EXACT: f64 = 1e-3;
 const UNEVEN: f64 = 2.0;
 /// Pixels nearer to an edge than this may see beyond it, px.
 const CLEARANCE_PX: f64 = 2.0;
+/// Least width of what lies between a sheet's edge and another one, beyond that clearance, px.
+const STRIP_PX: f64 = 1.0;
+/// Distance between the places at which the strongest edge is sought, px.
+const SOUGHT_PX: f64 = 0.5;
 
 /// The pixels of a piece of a side.
 pub(super) struct Piece {
@@ -65,29 +71,81 @@ impl Piece {
 
     /// Gain in log likelihood of an edge at each place over none.
     pub fn gains(&self, across: &Vector2<f64>, blur: usize, reach_px: f64) -> [f64; PLACES] {
-        let smooth = self.left_by(&Fit::smooth(self.all()));
         let spread_px = spread_px(across, BLURS_PX[blur]);
-        let gain = |place| {
-            let edge = self.edge_residual(offset(place, reach_px), spread_px)?;
-            let spare = self.distances.len() as f64 - COEFFICIENTS as f64 - 1.0;
-            Some(0.5 * spare * self.sum_of_ln(smooth? + self.exact, edge + self.exact))
+        std::array::from_fn(|place| self.gain(offset(place, reach_px), spread_px).unwrap_or(0.0))
+    }
+
+    /// The same of a sheet that ends at each place, if the strongest edge is that of its shadow beyond;
+    /// infinitely small where light does not change between the place and that edge, or that edge ends no
+    /// shadow.
+    pub fn gains_before_shadow(
+        &self,
+        (across, inwards): (&Vector2<f64>, f64),
+        blur: usize,
+        reach_px: f64,
+    ) -> [f64; PLACES] {
+        let (spread_px, clear_px) = (spread_px(across, BLURS_PX[blur]), CLEARANCE_PX + CLEAR_PX[blur]);
+        let gains = || {
+            let furthest_px = self.width_px - clear_px - STRIP_PX;
+            let sought = (0..=(2.0 * furthest_px / SOUGHT_PX) as usize)
+                .map(|n| n as f64 * SOUGHT_PX - furthest_px)
+                .filter_map(|edge_px| Some((self.gain(edge_px, spread_px)?, edge_px)));
+            let (gain_of_other, other_px) = sought.max_by(|a, b| a.0.total_cmp(&b.0))?;
+            let [further, end, strip] = [-clear_px, clear_px, clear_px + STRIP_PX]
+                .map(|inside_px| self.nearer_than(other_px + inwards * inside_px));
+            let count = self.distances.len();
+            let [inside, strip, beyond] = if inwards > 0.0 {
+                [end..count, end..strip, 0..further]
+            } else {
+                [0..end, strip..end, further..count]
+            };
+            if !self.is_darker(&strip, &beyond) {
+                return None;
+            }
+            let usual = self.usual(inwards, reach_px)? * inside.len() as f64;
+            let one_plane = self.sums_of(&inside).residual()? + usual;
+            // of the place and of the second plane in each channel, by the Bayesian information criterion
+            let penalty = 0.5 * (inside.len() as f64).ln() * (1.0 + OF_A_SIDE * self.channels as f64);
+            let of_place = |place: usize| {
+                let edge_px = offset(place, reach_px);
+                let two_planes = (inwards * (edge_px - other_px) >= clear_px + STRIP_PX)
+                    .then(|| self.edge_residual(&inside, edge_px, spread_px))??;
+                let step = spare(&inside) * self.sum_of_ln(one_plane, two_planes + usual) - penalty;
+                (step > 0.0).then_some(gain_of_other + step)
+            };
+            Some(std::array::from_fn(|place| of_place(place).unwrap_or(f64::NEG_INFINITY)))
         };
-        std::array::from_fn(|place| gain(place).filter(|gain| gain.is_finite()).unwrap_or(0.0))
+        gains().unwrap_or([f64::NEG_INFINITY; PLACES])
     }
 
     /// Loss in log likelihood of the light inside an edge at each place, compared with a sheet that continues
     /// up to there.
     pub fn breaks(&self, inwards: f64, reach_px: f64, blur: usize) -> [f64; PLACES] {
-        let within = |least_px: f64| {
-            let sums = self.sums_beyond(least_px, inwards);
-            Some(((sums.residual()? + self.exact) / sums.count(), sums.count()))
-        };
-        let Some((further, _)) = within(reach_px) else { return [0.0; PLACES] };
-        let usual = further * UNEVEN * UNEVEN;
+        let Some(usual) = self.usual(inwards, reach_px) else { return [0.0; PLACES] };
         std::array::from_fn(|place| {
-            within(inwards * offset(place, reach_px) + CLEARANCE_PX + CLEAR_PX[blur])
+            self.unevenness(inwards, inwards * offset(place, reach_px) + CLEARANCE_PX + CLEAR_PX[blur])
                 .map_or(0.0, |(variance, count)| 0.5 * count * self.sum_of_ln(variance.sup(&usual), usual))
         })
+    }
+
+    /// The largest variance of a sheet's light that is not unusual up to its edge.
+    fn usual(&self, inwards: f64, reach_px: f64) -> Option<Vector3<f64>> {
+        self.unevenness(inwards, reach_px).map(|(further, _)| further * UNEVEN * UNEVEN)
+    }
+
+    /// Variance of the light about a plane, over the pixels whose distance times `inwards` exceeds
+    /// `least_px`, and their number.
+    fn unevenness(&self, inwards: f64, least_px: f64) -> Option<(Vector3<f64>, f64)> {
+        let sums = self.sums_beyond(least_px, inwards);
+        Some(((sums.residual()? + self.exact) / sums.count(), sums.count()))
+    }
+
+    /// Gain in log likelihood of an edge at this distance from the side over none.
+    fn gain(&self, edge_px: f64, spread_px: [f64; 2]) -> Option<f64> {
+        let (all, smooth) = (0..self.distances.len(), self.left_by(self.all(), &Fit::smooth(self.all()))?);
+        let edge = self.edge_residual(&all, edge_px, spread_px)?;
+        let gain = spare(&all) * self.sum_of_ln(smooth + self.exact, edge + self.exact);
+        Some(gain).filter(|gain| gain.is_finite())
     }
 
     /// Sums over all pixels.
@@ -107,27 +165,51 @@ impl Piece {
         if inwards > 0.0 { self.all().without(first) } else { *first }
     }
 
-    /// Residual of two planes of light that meet at this distance from the side.
-    fn edge_residual(&self, edge_px: f64, [wide_px, narrow_px]: [f64; 2]) -> Option<Vector3<f64>> {
+    /// Sums over some of the pixels.
+    fn sums_of(&self, pixels: &Range<usize>) -> Sums {
+        self.sums[pixels.end].without(&self.sums[pixels.start])
+    }
+
+    /// Whether some of the pixels are darker in the mean than others, in every channel.
+    fn is_darker(&self, some: &Range<usize>, others: &Range<usize>) -> bool {
+        let [some, others] = [some, others].map(|pixels| self.sums_of(pixels).mean());
+        some.iter().zip(others.iter()).all(|(some, others)| some < others)
+    }
+
+    /// Residual, over some of the pixels, of two planes of light that meet at this distance from the side.
+    fn edge_residual(
+        &self,
+        pixels: &Range<usize>,
+        edge_px: f64,
+        [wide_px, narrow_px]: [f64; 2],
+    ) -> Option<Vector3<f64>> {
         let [wide, narrow, edge] = [wide_px, narrow_px, edge_px].map(|px| px / self.width_px);
         let (outer_px, inner_px) = ((wide_px + narrow_px) / 2.0, (wide_px - narrow_px) / 2.0);
-        let ends =
-            [-outer_px, -inner_px, inner_px, outer_px].map(|from_edge| self.nearer_than(edge_px + from_edge));
+        let up_to = |from_edge: f64| {
+            let end = self.nearer_than(edge_px + from_edge).clamp(pixels.start, pixels.end);
+            self.sums_of(&(pixels.start..end))
+        };
+        let (ends, all) = ([-outer_px, -inner_px, inner_px, outer_px].map(up_to), self.sums_of(pixels));
         let shares = shares_beyond(wide, narrow).map(|share| shifted(share, edge));
-        self.left_by(&Fit::of_planes(ends.map(|end| &self.sums[end]), shares, self.all()))
+        self.left_by(&all, &Fit::of_planes(ends.each_ref(), shares, &all))
     }
 
     /// Sum of squared residuals of a fit in each channel; none if the fit is not unique or pixels are too
     /// few.
-    fn left_by(&self, fit: &Fit) -> Option<Vector3<f64>> {
-        let left = (self.all().light_squares - fit.explained()?).sup(&Vector3::zeros());
-        (self.distances.len() > 2 * COEFFICIENTS).then_some(left)
+    fn left_by(&self, pixels: &Sums, fit: &Fit) -> Option<Vector3<f64>> {
+        let left = (pixels.light_squares - fit.explained()?).sup(&Vector3::zeros());
+        (pixels.count() > 2.0 * COEFFICIENTS as f64).then_some(left)
     }
 
     /// Sum over the channels of the logarithms of ratios.
     fn sum_of_ln(&self, over: Vector3<f64>, under: Vector3<f64>) -> f64 {
         over.component_div(&under).iter().take(self.channels).map(|ratio| ratio.ln()).sum()
     }
+}
+
+/// Half the number of residuals of an edge's fit that noise determines.
+fn spare(pixels: &Range<usize>) -> f64 {
+    0.5 * (pixels.len() as f64 - COEFFICIENTS as f64 - 1.0)
 }
 
 /// Extents across a line with this unit normal of a pixel widened by `blur_px`, the longer first.
@@ -182,7 +264,7 @@ mod tests {
                 (distance, Vector3::new(light, 0.5 * light, 0.3 + light))
             };
             let piece = Piece::new(0.5, width_px, (0..400).map(pixel).collect());
-            let left = |edge_px| piece.edge_residual(edge_px, [wide, narrow]).unwrap().amax();
+            let left = |edge_px| piece.edge_residual(&(0..400), edge_px, [wide, narrow]).unwrap().amax();
             assert!(left(edge_px) < 1e-6 && left(edge_px + 0.5) > 1e-3, "{blur_px}: {}", left(edge_px));
         }
     }
