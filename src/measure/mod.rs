@@ -32,6 +32,9 @@ use crate::scene::{
 use crate::spectrum::{ASSUMED_LIGHT, WavelengthGrid, candidate_lights};
 use crate::stream::{self, Optics};
 
+/// Least distance of a pixel from a panel's sides, px.
+const MARGIN_PX: f64 = 0.0;
+
 /// A photographed fold, and what is known of it.
 #[derive(Clone, Debug)]
 pub struct Setup<'a> {
@@ -175,7 +178,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         refine(photograph, &panels.marked, &LensEstimate::UNKNOWN, REFINED_WITHIN_PX)?;
     let corners = <[[Point; 4]; 2]>::try_from(refined).unwrap_or(setup.corners);
     let panels = panels.grids(lens.lens, corners)?;
-    let MeasuredPanels { facets, processing, .. } = measure_panels(photograph, &panels, 0.0)?;
+    let MeasuredPanels { facets, processing, .. } = measure_panels(photograph, &panels, MARGIN_PX)?;
     let rgb = values(&facets, |facet| facet.mean.clone())?;
     let noise = Noise {
         source: NoiseSource::OfFacets(values(&facets, |facet| facet.standard_error.clone())?),
@@ -190,6 +193,7 @@ pub fn sheet(photograph: &Photograph, setup: &Setup) -> Result<Measurement> {
         framing: Some(Framing {
             panels: corners.map(Some),
             size: [photograph.width(), photograph.height()].map(|px| px as f64),
+            margin_px: MARGIN_PX,
         }),
         exposure: setup.exposure,
         by_chart: false,

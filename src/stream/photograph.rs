@@ -339,6 +339,8 @@ struct FramingRecord {
     width: u32,
     height: u32,
     panels: Vec<Option<[[f64; 2]; 4]>>,
+    #[serde(default)]
+    margin_px: f64,
 }
 
 /// The fields that are read from the camera's settings.
@@ -419,11 +421,11 @@ impl Sample {
     /// [`crate::Error::Field`] if the photograph's record is invalid.
     pub fn framing(&self) -> Result<Option<Framing>> {
         let record: Option<FramingRecord> = self.fields.get("image")?;
-        Ok(record.and_then(|FramingRecord { width, height, panels }| {
+        Ok(record.and_then(|FramingRecord { width, height, panels, margin_px }| {
             let panels = <[_; 2]>::try_from(panels).ok()?;
             let corners = |panel: [[f64; 2]; 4]| panel.map(|[x, y]| Point::new(x, y));
             let panels = panels.map(|panel| panel.map(corners));
-            Some(Framing { panels, size: [width, height].map(f64::from) })
+            Some(Framing { panels, size: [width, height].map(f64::from), margin_px })
         }))
     }
 

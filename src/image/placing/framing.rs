@@ -10,4 +10,6 @@ pub struct Framing {
     pub panels: [Option<[Point; 4]>; 2],
     /// Width and height of the picture, px.
     pub size: [f64; 2],
+    /// Least distance of a pixel that was read from a panel's sides, px.
+    pub margin_px: f64,
 }

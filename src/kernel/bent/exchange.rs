@@ -24,12 +24,41 @@ const POINTS: [usize; 2] = [3, 2];
 /// A point of the sheet's cross-section that represents part of a row of facets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
-    /// Share of the row.
+    /// Its weight in the row's value.
     pub share: f64,
     /// Coordinates across the crease and out of the opening.
     pub place: Vector2<f64>,
     /// Unit normal there.
     pub normal: Vector2<f64>,
+}
+
+/// Light that reaches a point of the sheet from a patch of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Incoming<'a> {
+    /// The point.
+    pub at: &'a Seen,
+    /// Unit vector towards the patch.
+    pub towards: Vector3<f64>,
+    /// Unit normal of the patch.
+    pub normal: Vector2<f64>,
+    /// Form factor from the point to the patch.
+    pub form_factor: f64,
+}
+
+/// How a picture shows a fold.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// The direction from which it is seen, in the coordinates of [`Fold::panels`].
+    pub towards: Vector3<f64>,
+    /// Fraction of each panel next to the crease that is not read, because pixels there show both panels.
+    pub unread: [f64; 2],
+}
+
+impl From<Vector3<f64>> for View {
+    /// From this direction, read up to the crease.
+    fn from(towards: Vector3<f64>) -> Self {
+        Self { towards, unread: [0.0; 2] }
+    }
 }
 
 /// Form factors among the parts of a bent sheet and to its facets, independent of light and albedo.
@@ -51,27 +80,22 @@ pub struct BentExchange {
 }
 
 impl BentExchange {
-    /// The exchange of `bent` with the panels and facets of `fold`, seen from far away in the direction
-    /// `eye`.
+    /// The exchange of `bent` with the panels and facets of `fold`, seen from far away.
     ///
-    /// The viewpoint decides what the facets show of a rounded crease: they divide the flat quadrilateral
-    /// marked in the picture, from the bottom of the crease to the outer edge. Coordinates are those of
+    /// The viewpoint decides what the facets show of a rounded crease: they divide the quadrilateral between
+    /// an outer side and the line where the panels would meet without rounding. Coordinates are those of
     /// [`Fold::panels`].
     #[must_use]
-    pub fn new(bent: &BentFold, fold: &Fold, eye: Vector3<f64>) -> Self {
+    pub fn new(bent: &BentFold, fold: &Fold, view: impl Into<View>) -> Self {
+        let View { towards, unread } = view.into();
         let panels = section::strips(bent, fold);
-        let view = Vector2::new(eye.x, eye.z);
+        let towards = Vector2::new(towards.x, towards.z);
         let edges = fold.spacing().edges(fold.facets().rows);
-        let samples = panels.each_ref().map(|strips| seen::samples(strips, &edges, view));
-        let rows = rows(&panels, &samples, fold.facets().rows);
+        let samples = [0, 1].map(|panel| seen::samples(&panels, panel, (&edges, unread[panel]), towards));
         let strips = panels.concat();
-        let offsets = [0, panels[0].len()];
+        let rows = rows(&strips, &samples, fold.facets().rows);
         let numbered: Vec<(usize, Sample)> = (0..2)
-            .flat_map(|p: usize| {
-                let move_on =
-                    move |sample: &Sample| (p, Sample { strip: sample.strip + offsets[p], ..*sample });
-                samples[p].iter().map(move_on)
-            })
+            .flat_map(|panel: usize| samples[panel].iter().map(move |sample| (panel, *sample)))
             .collect();
         Self {
             areas: strips
@@ -172,6 +196,29 @@ impl BentExchange {
         &self.rows
     }
 
+    /// Light of the sheet that reaches the points of a row in the middle of the crease, patch by patch.
+    pub(crate) fn incoming(&self, row: usize) -> Vec<Incoming<'_>> {
+        let edge = |n: usize| (n as f64 / COLUMNS as f64 - 0.5) * self.fold.width();
+        let mut all = Vec::new();
+        for at in &self.rows[row] {
+            for strip in &self.strips {
+                let Some(seen) = SeenStrip::new(at.place, at.normal, strip) else { continue };
+                let up_to = |y: f64| y.signum() * seen.up_to(y.abs());
+                let way = strip.at(0.5) - at.place;
+                all.extend((0..COLUMNS).map(|column| {
+                    let [low, high] = [edge(column), edge(column + 1)];
+                    Incoming {
+                        at,
+                        towards: Vector3::new(way.x, 0.5 * (low + high), way.y).normalize(),
+                        normal: strip.normal,
+                        form_factor: up_to(high) - up_to(low),
+                    }
+                }));
+            }
+        }
+        all
+    }
+
     /// Number of patches in one half.
     pub(crate) fn patches(&self) -> usize {
         self.areas.len()
@@ -269,11 +316,11 @@ fn gather(strips: &[Strip], samples: &[(usize, Sample)], fold: &Fold) -> [DMatri
 }
 
 /// The points visible in the rows of both panels.
-fn rows(panels: &[Vec<Strip>; 2], samples: &[Vec<Sample>; 2], rows: usize) -> Vec<Vec<Seen>> {
+fn rows(strips: &[Strip], samples: &[Vec<Sample>; 2], rows: usize) -> Vec<Vec<Seen>> {
     let mut shown = vec![Vec::new(); 2 * rows];
     for (p, samples) in samples.iter().enumerate() {
         for Sample { row, weight, strip, share } in samples {
-            let strip = &panels[p][*strip];
+            let strip = &strips[*strip];
             let seen = Seen { share: *weight, place: strip.at(*share), normal: strip.bent_at(*share) };
             shown[p * rows + row].push(seen);
         }

@@ -12,8 +12,8 @@ mod seen;
 mod symmetry;
 mod view;
 
-pub use exchange::BentExchange;
-pub(crate) use exchange::Seen;
+pub use exchange::{BentExchange, View};
+pub(crate) use exchange::{Incoming, Seen};
 pub(crate) use symmetry::Symmetry;
 
 use nalgebra::Vector3;
