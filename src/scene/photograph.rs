@@ -6,6 +6,7 @@ mod bends;
 mod bins;
 pub(super) mod eye;
 mod framing;
+mod reflections;
 mod sheets;
 
 use std::sync::Arc;
@@ -126,7 +127,7 @@ impl<'a> PhotographedFold<'a> {
         for (panel, corners) in FoldView::new(&self.setting.fold, &Viewpoint::default(), frame)?.corners() {
             panels[panel] = Some(corners);
         }
-        let framing = Some(Framing { panels, size: SIZE.map(|px| px as f64) });
+        let framing = Some(Framing { panels, size: SIZE.map(|px| px as f64), margin_px: 0.0 });
         let by_paper = None;
         self.parts(&Picture { measured, framing, exposure, by_chart: false, white_per_klx: None, by_paper })
     }
@@ -159,8 +160,10 @@ impl<'a> PhotographedFold<'a> {
             has_sky_illuminant: daylight.is_some() && optics.sky.is_some(),
             ..self.setting.stated(self.priors, values.ncols(), daylight)
         };
-        let sheets = || sheets::of(fold, [sun, pose.eye], &self.nodes, &bins, self.left_out.as_deref());
-        let (light, sheets) = rayon::join(|| self.light(&pose, &bins), sheets);
+        let bends = Bends::of(fold, pose.view());
+        let left_out = self.left_out.as_deref();
+        let sheets = || sheets::of((fold, &bends), [sun, pose.eye], (&self.nodes, &bins), left_out);
+        let (light, sheets) = rayon::join(|| self.light(&pose, &bends, &bins), sheets);
         let (even_sky, lit, surroundings) = light?;
         Ok(Ok(Parts {
             stated,
@@ -176,18 +179,17 @@ impl<'a> PhotographedFold<'a> {
     }
 
     /// Uniform light, sunlight, and light of the surroundings.
-    fn light(&self, pose: &Pose, bins: &Bins) -> Result<(Radiance, Sunlit, Surroundings)> {
+    fn light(&self, pose: &Pose, bends: &Bends, bins: &Bins) -> Result<(Radiance, Sunlit, Surroundings)> {
         let FoldSetting { fold, light, sky, .. } = self.setting;
-        let (sun, view) = (light.towards(), pose.eye.normalize());
-        let bends = Bends::of(fold, view);
-        let lit = self.sunlit(bins, &bends, [sun, view])?;
+        let sun = light.towards();
+        let lit = self.sunlit(bins, bends, sun)?;
         let even = self.exact(ModeLight::Sky(1.0));
         let zenith = sky.filter(StatedSky::is_zenith_stated).map(|sky| sky.zenith);
-        let surroundings = ambient::of(fold, (pose, sun, zenith), (&self.nodes, &even), (&bends, bins))?;
+        let surroundings = ambient::of(fold, (pose, sun, zenith), (&self.nodes, &even), (bends, bins))?;
         Ok((bins.pool(&even), lit, surroundings))
     }
 
-    fn sunlit(&self, bins: &Bins, bends: &Bends, [sun, view]: [Vector3<f64>; 2]) -> Result<Sunlit> {
+    fn sunlit(&self, bins: &Bins, bends: &Bends, sun: Vector3<f64>) -> Result<Sunlit> {
         let FoldSetting { fold, light, .. } = self.setting;
         let [even, odd] = light.even_and_odd(fold);
         let angle_deg = fold.angle_deg();
@@ -200,7 +202,7 @@ impl<'a> PhotographedFold<'a> {
             Ok(Change { known: all.iter().map(of).collect::<Result<_>>()? })
         };
         let change = |sizes: &[f64], bend: &dyn Fn(f64) -> BentFold| -> Result<Change> {
-            let of = |size: &f64| Ok((*size, effect(&BentExchange::new(&bend(*size), fold, view))?));
+            let of = |size: &f64| Ok((*size, effect(&BentExchange::new(&bend(*size), fold, bends.view))?));
             Ok(Change { known: sizes.iter().map(of).collect::<Result<_>>()? })
         };
         let flat = BentFold::ideal(angle_deg);

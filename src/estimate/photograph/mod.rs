@@ -18,6 +18,7 @@ pub mod eye;
 mod family;
 pub mod finding;
 mod findings;
+mod fold_changes;
 pub mod hypotheses;
 pub mod imperfection;
 mod joint;

@@ -5,9 +5,11 @@ use std::borrow::Cow;
 use nalgebra::{DMatrix, DVector};
 
 use super::conditions::Conditions;
+use super::fold_changes::departed;
 use super::lens::Lens;
 use super::lighting::Lighting;
 use super::parts::{Ambient, Parts, Radiance, Surroundings};
+use super::sheets::Departure;
 use crate::estimate::unknowns::Whose;
 use crate::solve::dense::add_product;
 
@@ -71,8 +73,8 @@ impl Predicted<'_> {
 }
 
 impl<'a> Predictor<'a, '_> {
-    /// The facets of a sheet whose radiance exceeds that of a Lambertian one by `beyond`.
-    pub fn facets(&self, conditions: &Conditions, beyond: &Radiance) -> Predicted<'a> {
+    /// The facets of a sheet that departs from a Lambertian one by `beyond`.
+    pub fn facets(&self, conditions: &Conditions, beyond: &Departure) -> Predicted<'a> {
         let sunlit = Cow::Owned(sunlit(self.parts, conditions, beyond));
         self.in_light(conditions, sunlit, self.surroundings(conditions))
     }
@@ -83,7 +85,7 @@ impl<'a> Predictor<'a, '_> {
         &self,
         here: &Predicted<'a>,
         conditions: &Conditions,
-        beyond: &Radiance,
+        beyond: &Departure,
         whose: Whose,
     ) -> DMatrix<f64> {
         let sun = &here.lights[0];
@@ -155,8 +157,8 @@ impl<'a> Predictor<'a, '_> {
     }
 }
 
-/// Sunlight on the facets, for a sheet whose radiance exceeds that of a Lambertian one by `beyond`.
-fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance {
+/// Sunlight on the facets, for a sheet that departs from a Lambertian one by `beyond`.
+fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Departure) -> Radiance {
     let (sun, stated) = (&parts.sun, &parts.stated);
     let (sin, cos) = conditions.tilt_deg.to_radians().sin_cos();
     let mut radiance = cos * &sun.even + sin * &sun.odd;
@@ -165,7 +167,7 @@ fn sunlit(parts: &Parts, conditions: &Conditions, beyond: &Radiance) -> Radiance
     sun.bow_deg.add_to(&mut radiance, 1.0, conditions.bow_deg);
     sun.bow_difference_deg.add_to(&mut radiance, 1.0, conditions.bow_difference_deg);
     sun.nearness.add_to(&mut radiance, 1.0, conditions.nearness);
-    conditions.sun * (radiance + beyond)
+    conditions.sun * (radiance + departed(parts, conditions, beyond))
 }
 
 /// The sum of these lights on the facets, in these amounts.

@@ -53,11 +53,12 @@ priors! {
     /// Heaviness of the tails for stated values, which now and then are blunders; 0: normal.
     stated_tail: 0.5,
 
-    /// Reciprocal colour temperature of direct sunlight, 1e-6/K, whatever CIE daylight was stated: 5000 K to
-    /// 5800 K.
+    /// Reciprocal colour temperature of direct sunlight, 1e-6/K, whatever CIE daylight was stated: 4900 K to
+    /// 5900 K.
     sun_mired: 187.0,
-    /// Standard deviation: the effect of a tenth more or less aerosol (optical depth at 500 nm).
-    sun_mired_sd: 7.0,
+    /// Standard deviation: that of the suns of `train`; a tenth more or less aerosol (optical depth at 500 nm)
+    /// makes 7.
+    sun_mired_sd: 9.5,
     /// Logarithm of the gains of the first and the last channel: cameras of one model differ by 2 %.
     gain_sd: 0.015,
     /// Difference between measurements of one camera model by two laboratories, relative to the peak of a
@@ -112,10 +113,10 @@ priors! {
     /// Reflectance of the ground: a table, grass or sand has 0.1 to 0.4.
     ground: 0.115,
     /// Rise of the ground's reflectance to 700 nm: earth and wood are brown, and reflect half as much again
-    /// in the red.
+    /// in the red, stone and cloth may be grey.
     ground_redness: 0.4,
-    /// See `ground_redness`.
-    ground_redness_sd: 0.3,
+    /// That of the grounds of `train`.
+    ground_redness_sd: 0.47,
     /// Radius of the crease, in panel depths: folded sheets have 0 to 3 %.
     crease_radius: 0.006,
     /// Bow of both panels, degrees: sheets held at their edges turn by a few.

@@ -85,7 +85,7 @@ impl<'a> SheetModels<'a> {
                 priors: parts.stated.priors,
                 sheets: &parts.sheets,
                 measured: sum(measured, &mean),
-                variations: principal_components.iter().map(|shares| sum(measured, shares)).collect(),
+                variations: principal_components.iter().map(|shares| variation(measured, shares)).collect(),
             }
         };
         photographs.iter().zip(&bounded).map(of).collect()
@@ -149,6 +149,14 @@ fn sum(all: &[Departure], shares: &[f64]) -> Departure {
     sum
 }
 
+/// The same for a principal component. Tables are too uncertain to tell how their differences change with the
+/// fold.
+fn variation(all: &[Departure], shares: &[f64]) -> Departure {
+    let mut sum = sum(all, shares);
+    sum.changes.fill(0.0);
+    sum
+}
+
 /// Measured sheets in each photograph, scaled so that none departs too far in any of them.
 fn bounded(photographs: &[Parts]) -> Vec<Vec<Departure>> {
     let count = photographs.first().map_or(0, |parts| parts.sheets.measured.len());
@@ -158,11 +166,9 @@ fn bounded(photographs: &[Parts]) -> Vec<Vec<Departure>> {
     };
     let shares: Vec<f64> = (0..count).map(share).collect();
     let bounded = |(one, share): (&Departure, &f64)| {
-        let [slope, offset] = one.reflectance;
-        Departure {
-            radiance: *share * &one.radiance,
-            reflectance: [1.0 + share * (slope - 1.0), share * offset],
-        }
+        let mut bounded = Departure::none(&one.radiance);
+        bounded.add(*share, one, [1.0, 0.0]);
+        bounded
     };
     let of = |parts: &Parts| parts.sheets.measured.iter().zip(&shares).map(bounded).collect();
     photographs.iter().map(of).collect()

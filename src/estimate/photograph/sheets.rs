@@ -14,13 +14,28 @@ pub struct Departure {
     pub radiance: Radiance,
     /// Its 45:0 reflectance is the first number times its albedo, plus the second.
     pub reflectance: [f64; 2],
+    /// Changes of that radiance with the shape of the fold and the place of the sun: facet by [`POWERS`] for
+    /// each of [`CHANGES`].
+    pub changes: DMatrix<f64>,
 }
+
+/// Radii of the crease at which changes with it are tabulated, in panel depths.
+pub const CREASE_RADII: [f64; 2] = [0.012, 0.03];
+/// Number of changes: with the crease rounded at each of [`CREASE_RADII`], per degree by which the facet's
+/// own panel bows, and per degree of the sun's tilt.
+pub const CHANGES: usize = 4;
+/// Powers of the albedo in each, from 0 on: light is reflected twice at most.
+pub const POWERS: usize = 3;
 
 impl Departure {
     /// The departure of a Lambertian sheet itself.
     #[must_use]
     pub fn none(like: &Radiance) -> Self {
-        Self { radiance: Radiance::zeros(like.nrows(), like.ncols()), reflectance: [1.0, 0.0] }
+        Self {
+            radiance: Radiance::zeros(like.nrows(), like.ncols()),
+            reflectance: [1.0, 0.0],
+            changes: DMatrix::zeros(like.nrows(), CHANGES * POWERS),
+        }
     }
 
     /// Its difference from another.
@@ -35,6 +50,7 @@ impl Departure {
     pub fn add(&mut self, share: f64, other: &Self, reference: [f64; 2]) {
         if share != 0.0 {
             add(self.radiance.as_mut_slice(), share, other.radiance.as_slice());
+            add(self.changes.as_mut_slice(), share, other.changes.as_slice());
             let departed = other.reflectance.iter().zip(&reference);
             for (sum, (other, reference)) in self.reflectance.iter_mut().zip(departed) {
                 *sum += share * (other - reference);

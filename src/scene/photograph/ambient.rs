@@ -39,7 +39,7 @@ pub fn of(
     let [_, _, ground, sky] = &known[middle];
     let true_of = even / &(ground + sky);
     let step = ANGLE_DEG.min(ANGLE_MOST * fold.angle_deg());
-    let wider = BentExchange::new(&BentFold::ideal(fold.angle_deg() + step), fold, pose.eye.normalize());
+    let wider = BentExchange::new(&BentFold::ideal(fold.angle_deg() + step), fold, bends.view);
     let [_, hollow] = &bends.bowed;
     let changed = |bent: &BentExchange| {
         let mut radiances = facet_radiances(&lights[middle..=middle], bent, nodes)?;

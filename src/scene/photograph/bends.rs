@@ -1,12 +1,10 @@
 //! The fold of a photograph, ideal and bent in the ways that matter in all light.
 
-use nalgebra::Vector3;
-
+use crate::estimate::photograph::sheets::CREASE_RADII;
 use crate::geometry::Fold;
-use crate::kernel::bent::{BentExchange, BentFold};
+use crate::kernel::bent::{BentExchange, BentFold, View};
 
-/// Sizes at which bends are tabulated: radii of the crease in panel depths, and degrees of bow.
-const CREASE_RADII: [f64; 2] = [0.012, 0.03];
+/// Degrees of bow at which bends are tabulated.
 pub const BOWS_DEG: [f64; 2] = [-3.0, 3.0];
 
 /// A size of a bend, and the fold bent by it.
@@ -14,6 +12,8 @@ pub type Bent = (f64, BentExchange);
 
 /// Bent folds as seen from the camera.
 pub struct Bends {
+    /// How the picture shows them.
+    pub view: View,
     /// The fold as stated.
     pub ideal: BentExchange,
     /// With a rounded crease.
@@ -23,11 +23,12 @@ pub struct Bends {
 }
 
 impl Bends {
-    /// Of a fold seen from far away in the direction `view`.
-    pub fn of(fold: &Fold, view: Vector3<f64>) -> Self {
+    /// Of a fold.
+    pub fn of(fold: &Fold, view: View) -> Self {
         let flat = BentFold::ideal(fold.angle_deg());
         let seen = |bent: BentFold| BentExchange::new(&bent, fold, view);
         Self {
+            view,
             ideal: seen(flat),
             rounded: CREASE_RADII
                 .map(|crease_radius| (crease_radius, seen(BentFold { crease_radius, ..flat }))),

@@ -1,10 +1,14 @@
 //! Position of the camera, and of the facets in its picture.
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector, Vector2, Vector3};
 
 use crate::error::Result;
 use crate::geometry::Fold;
 use crate::image::{Framing, Homography, Point, camera_pose};
+use crate::kernel::bent::View;
+
+/// Depth within which the scale of the picture at the crease is found, in panel depths.
+const NEAR: f64 = 0.05;
 
 /// A camera before a fold, located by the corners of the panels.
 pub struct Pose {
@@ -16,6 +20,7 @@ pub struct Pose {
     outlines: [Homography; 2],
     centre: Point,
     half_diagonal: f64,
+    margin_px: f64,
 }
 
 impl Pose {
@@ -35,6 +40,7 @@ impl Pose {
             outlines,
             centre: Point::new(width / 2.0, height / 2.0),
             half_diagonal: 0.5 * width.hypot(height),
+            margin_px: framing.margin_px,
         }))
     }
 
@@ -43,6 +49,19 @@ impl Pose {
     pub fn off_centre(&self, panel: usize, along: f64, depth: f64) -> f64 {
         let Point { x, y } = self.outlines[panel].to_image(along, depth);
         ((x - self.centre.x).powi(2) + (y - self.centre.y).powi(2)) / self.half_diagonal.powi(2)
+    }
+
+    /// How the picture shows the fold. Facets are read from pixels that show one panel alone, at least half a
+    /// pixel from the crease.
+    pub fn view(&self) -> View {
+        let unread = |outline: &Homography| {
+            let [crease, end, inside] =
+                [(0.5, 0.0), (1.0, 0.0), (0.5, NEAR)].map(|(along, depth)| outline.to_image(along, depth));
+            let along = (Vector2::new(end.x, end.y) - Vector2::new(crease.x, crease.y)).normalize();
+            let depth_px = along.perp(&Vector2::new(inside.x - crease.x, inside.y - crease.y)).abs() / NEAR;
+            (0.5 * (along.x.abs() + along.y.abs()) + self.margin_px) / depth_px
+        };
+        View { towards: self.eye.normalize(), unread: self.outlines.each_ref().map(unread) }
     }
 
     /// The zenith, if the sine of the sun's elevation is `sun_height`: on the side of the stated zenith or,

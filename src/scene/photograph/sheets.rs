@@ -4,8 +4,11 @@ use std::sync::LazyLock;
 
 use nalgebra::{Point3, Vector3};
 use ndarray::Axis;
+use rayon::prelude::*;
 
+use super::bends::Bends;
 use super::bins::Bins;
+use super::reflections::Reflections;
 use crate::error::Result;
 use crate::estimate::photograph::sheets::{
     BODY_ROUGHNESSES_DEG, Departure, SHEEN, SPECULAR_ROUGHNESSES, SPECULAR_WEIGHTS, Sheets,
@@ -16,20 +19,22 @@ use crate::transport::departures;
 
 /// The known sheets as seen on this fold, without the measured one named `left_out`.
 pub fn of(
-    fold: &Fold,
+    (fold, bends): (&Fold, &Bends),
     [sun, eye]: [Vector3<f64>; 2],
-    nodes: &[f64],
-    bins: &Bins,
+    (nodes, bins): (&[f64], &Bins),
     left_out: Option<&str>,
 ) -> Result<Sheets> {
     let tables = measured()?.iter().zip(measured_names()).filter(|(_, name)| Some(*name) != left_out);
     let all: Vec<Shape> = FORMULAS.iter().chain(tables.map(|(shape, _)| shape)).cloned().collect();
     let beyond = departures(fold, &sun, &Point3::from(eye), &all, nodes);
-    let departure = |(shape, radiance): (&Shape, ndarray::ArrayView2<f64>)| Departure {
-        radiance: bins.pool(&radiance.to_owned()),
+    let reflections = Reflections::of(fold, bends, sun);
+    let changes: Vec<_> = all.par_iter().map(|shape| reflections.changes(shape)).collect();
+    let departure = |(n, shape): (usize, &Shape)| Departure {
+        radiance: bins.pool(&beyond.index_axis(Axis(0), n).to_owned()),
         reflectance: shape.slope_and_offset(),
+        changes: bins.pool(&changes[n]),
     };
-    let mut known: Vec<Departure> = all.iter().zip(beyond.axis_iter(Axis(0))).map(departure).collect();
+    let mut known: Vec<Departure> = all.iter().enumerate().map(departure).collect();
     let measured = known.split_off(FORMULAS.len());
     let fuzzy = known.split_off(FORMULAS.len() - SHEEN.len());
     let place = |n: usize| n - (0..=n).filter(|one| representative(*one) != *one).count();

@@ -139,7 +139,7 @@ impl<'a> Model for PhotographModel<'a> {
             shifted[n] += STEP;
             let conditions = self.conditions(&shifted);
             let beyond = match unknown.is_of_sheet() {
-                true => Cow::Owned(self.departure(&shifted, &conditions).radiance),
+                true => Cow::Owned(self.departure(&shifted, &conditions)),
                 false => Cow::Borrowed(&beyond),
             };
             let moved = predictor.shifted(&here, &conditions, &beyond, unknown.whose);

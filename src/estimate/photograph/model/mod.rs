@@ -16,7 +16,7 @@ use super::hypotheses::Hypothesis;
 use super::imperfection::Imperfection;
 use super::lighting::Lighting;
 use super::number::Number;
-use super::parts::{Parts, Radiance};
+use super::parts::Parts;
 use super::prediction::{Predicted, Predictor, Terms};
 use super::sheet_models::{SheetModel, SheetModels};
 use super::sheets::{Departure, INSTRUMENT_OWN, SPECULAR_ROUGHNESSES};
@@ -51,7 +51,7 @@ pub struct Ingredients<'a> {
     sensitivities: DMatrix<f64>,
     conditions: Conditions,
     /// Radiance of the facets minus that of a Lambertian sheet.
-    beyond: Radiance,
+    beyond: Departure,
     facets: Predicted<'a>,
 }
 
@@ -218,7 +218,7 @@ impl<'a> PhotographModel<'a> {
         let albedo: Vec<f64> = self.logit(w).iter().map(|z| logistic(*z)).collect();
         let (terms, sensitivities) = (self.terms(w, &albedo), self.sensitivities(w));
         let conditions = self.conditions(w);
-        let beyond = self.departure(w, &conditions).radiance;
+        let beyond = self.departure(w, &conditions);
         let predictor = Predictor { parts: self.parts, terms: &terms, sensitivities: &sensitivities };
         let facets = predictor.facets(&conditions, &beyond);
         Ingredients { albedo, terms, sensitivities, conditions, beyond, facets }
