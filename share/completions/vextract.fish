@@ -196,7 +196,7 @@ cc24-iso17321\t''
 munsell\t''"
 complete -c vextract -l find -d 'Print where the fold, the chart and what may be white are in each photograph, one line of JSON as --regions reads it, and exit; needs no scene'
 complete -c vextract -l pick -d 'Show the photograph and the detected fold in a browser on this machine, to be corrected there, then print the corners as --find does; over SSH forward the port of the address that is shown: ssh -L PORT:127.0.0.1:PORT'
-complete -c vextract -l exact-corners -d 'Use the corners as marked, without moving them to the edges'
+complete -c vextract -l exact-corners -d 'Use the corners as marked, without moving them to the edges; those of the crease are where the panels would meet if it were sharp'
 complete -c vextract -s q -l quiet -d 'Print nothing but errors'
 complete -c vextract -s v -l verbose -d 'Report what was decided, measured and skipped'
 complete -c vextract -l no-history -d 'Do not record this tool\'s arguments in the stream'

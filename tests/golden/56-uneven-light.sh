@@ -21,7 +21,7 @@ oiiotool photo.tif --pattern constant:color=1,1,1 320x240 3 --fill:color=0.5,0.5
 judge shadow.tif "a shadow lies on panel 0"
 photo --light point:0,0,5.4
 judge photo.tif "a lamp 5 panel depths away"
-photo --light point:0,-1.5,5.4
+photo --light point:0,-2,5.4
 judge photo.tif "light falls off along the crease"
 # A sky that was stated is an expectation: what the photograph shows is found along with it.
 photo --sky only --sky-type overcast --zenith 0,0.7,0.7

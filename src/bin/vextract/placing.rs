@@ -13,8 +13,8 @@ pub struct PlacingArgs {
     /// report sides that have no edge
     #[arg(long, value_name = "PX", num_args = 0..=1, require_equals = true, default_missing_value = "6")]
     refine: Option<f64>,
-    /// Use the corners as marked, without moving them to the edges; the ends of the crease are where the panels
-    /// would meet if it were sharp
+    /// Use the corners as marked, without moving them to the edges; those of the crease are where the
+    /// panels would meet if it were sharp
     #[arg(long, conflicts_with = "refine")]
     exact_corners: bool,
     /// Lens distortion about the picture's centre: seen radius r (1 + K1 r² + K2 r⁴), r in units of half the

@@ -56,8 +56,8 @@ priors! {
     /// Reciprocal colour temperature of direct sunlight, 1e-6/K, whatever CIE daylight was stated: 4900 K to
     /// 5900 K.
     sun_mired: 187.0,
-    /// Standard deviation: that of the suns of `train`; a tenth more or less aerosol (optical depth at 500 nm)
-    /// makes 7.
+    /// Standard deviation: that of the suns of `train`. A tenth more or less aerosol (optical depth at
+    /// 500 nm) makes 7.
     sun_mired_sd: 9.5,
     /// Logarithm of the gains of the first and the last channel: cameras of one model differ by 2 %.
     gain_sd: 0.015,

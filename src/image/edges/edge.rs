@@ -156,12 +156,13 @@ impl Side {
     ) -> Gains {
         let of_piece = |piece: &Piece| {
             let of_one = piece.gains(&self.across(), blur, reach_px);
-            let none = ([f64::NEG_INFINITY; PLACES], [0.0; PLACES]);
-            let (before_shadow, breaks) = inwards.map_or(none, |inwards| {
+            let breaks = inwards.map_or([0.0; PLACES], |inwards| piece.breaks(inwards, reach_px, blur));
+            // what may hide a side is as dark as a shadow
+            let shadowed = inwards.filter(|_| most_of_piece.is_infinite());
+            let gains = shadowed.map_or(of_one, |inwards| {
                 let before = piece.gains_before_shadow((&self.across(), inwards), blur, reach_px);
-                (before, piece.breaks(inwards, reach_px, blur))
+                std::array::from_fn(|place| of_one[place].max(before[place]))
             });
-            let gains: [f64; PLACES] = std::array::from_fn(|place| of_one[place].max(before_shadow[place]));
             let most = gains.iter().copied().fold(0.0, f64::max);
             let gains = gains.map(|gain| gain.max(most - most_of_piece));
             let whole = |place: usize| gains[place] - breaks[place].min(2.0 * most_of_piece);
