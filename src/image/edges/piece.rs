@@ -44,6 +44,8 @@ pub(super) struct Piece {
     sums: Vec<Sums>,
     /// Sums of squares that count as zero.
     exact: Vector3<f64>,
+    /// Sums of squares that smooth light leaves, if it is determined.
+    smooth: Option<Vector3<f64>>,
     /// Independent channels: the three of a grey picture count as one.
     channels: usize,
 }
@@ -66,7 +68,10 @@ impl Piece {
             distances.push(distance);
             sums.push(sums[sums.len() - 1].with(distance, &light));
         }
-        Self { place, width_px, distances, sums, exact, channels: if is_grey { 1 } else { 3 } }
+        let channels = if is_grey { 1 } else { 3 };
+        let mut piece = Self { place, width_px, distances, sums, exact, smooth: None, channels };
+        piece.smooth = piece.left_by(piece.all(), &Fit::smooth(piece.all()));
+        piece
     }
 
     /// Gain in log likelihood of an edge at each place over none.
@@ -142,9 +147,9 @@ impl Piece {
 
     /// Gain in log likelihood of an edge at this distance from the side over none.
     fn gain(&self, edge_px: f64, spread_px: [f64; 2]) -> Option<f64> {
-        let (all, smooth) = (0..self.distances.len(), self.left_by(self.all(), &Fit::smooth(self.all()))?);
+        let all = 0..self.distances.len();
         let edge = self.edge_residual(&all, edge_px, spread_px)?;
-        let gain = spare(&all) * self.sum_of_ln(smooth + self.exact, edge + self.exact);
+        let gain = spare(&all) * self.sum_of_ln(self.smooth? + self.exact, edge + self.exact);
         Some(gain).filter(|gain| gain.is_finite())
     }
 
