@@ -18,18 +18,19 @@ pub(super) fn departed(parts: &Parts, conditions: &Conditions, departure: &Depar
         let nodes = nodes();
         DMatrix::from_fn(POWERS, NODES, |power, node| nodes[node].powi(power as i32))
     });
+    let mut radiance = departure.radiance.clone();
+    let Some(of_amounts) = &departure.changes else { return radiance };
     let [amounts_0, amounts_1] = [0, 1].map(|panel| amounts(parts, conditions, panel));
     // the facets of panel 0 come first
     let facets = parts.places.len();
     let of_panel_0 = parts.places.partition_point(|place| place.panel == 0);
     let mut changes = DMatrix::zeros(facets, POWERS);
-    for (n, own) in columns(&departure.changes).enumerate() {
+    for (n, own) in columns(of_amounts).enumerate() {
         let (change, power) = (n / POWERS, n % POWERS);
         let sum = &mut changes.as_mut_slice()[power * facets..(power + 1) * facets];
         add(&mut sum[..of_panel_0], amounts_0[change], &own[..of_panel_0]);
         add(&mut sum[of_panel_0..], amounts_1[change], &own[of_panel_0..]);
     }
-    let mut radiance = departure.radiance.clone();
     radiance.gemm(1.0, &changes, &AT_NODES, 1.0);
     radiance
 }

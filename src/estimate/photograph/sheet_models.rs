@@ -152,9 +152,7 @@ fn sum(all: &[Departure], shares: &[f64]) -> Departure {
 /// The same for a principal component. Tables are too uncertain to tell how their differences change with the
 /// fold.
 fn variation(all: &[Departure], shares: &[f64]) -> Departure {
-    let mut sum = sum(all, shares);
-    sum.changes.fill(0.0);
-    sum
+    Departure { changes: None, ..sum(all, shares) }
 }
 
 /// Measured sheets in each photograph, scaled so that none departs too far in any of them.

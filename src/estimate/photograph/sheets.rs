@@ -16,7 +16,8 @@ pub struct Departure {
     pub reflectance: [f64; 2],
     /// Changes of that radiance with the shape of the fold and the place of the sun: facet by [`POWERS`] for
     /// each of [`CHANGES`].
-    pub changes: DMatrix<f64>,
+    /// `None` if it has none.
+    pub changes: Option<DMatrix<f64>>,
 }
 
 /// Radii of the crease at which changes with it are tabulated, in panel depths.
@@ -31,11 +32,7 @@ impl Departure {
     /// The departure of a Lambertian sheet itself.
     #[must_use]
     pub fn none(like: &Radiance) -> Self {
-        Self {
-            radiance: Radiance::zeros(like.nrows(), like.ncols()),
-            reflectance: [1.0, 0.0],
-            changes: DMatrix::zeros(like.nrows(), CHANGES * POWERS),
-        }
+        Self { radiance: Radiance::zeros(like.nrows(), like.ncols()), reflectance: [1.0, 0.0], changes: None }
     }
 
     /// Its difference from another.
@@ -50,7 +47,11 @@ impl Departure {
     pub fn add(&mut self, share: f64, other: &Self, reference: [f64; 2]) {
         if share != 0.0 {
             add(self.radiance.as_mut_slice(), share, other.radiance.as_slice());
-            add(self.changes.as_mut_slice(), share, other.changes.as_slice());
+            if let Some(changes) = &other.changes {
+                let own =
+                    self.changes.get_or_insert_with(|| DMatrix::zeros(changes.nrows(), changes.ncols()));
+                add(own.as_mut_slice(), share, changes.as_slice());
+            }
             let departed = other.reflectance.iter().zip(&reference);
             for (sum, (other, reference)) in self.reflectance.iter_mut().zip(departed) {
                 *sum += share * (other - reference);

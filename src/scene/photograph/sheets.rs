@@ -32,7 +32,7 @@ pub fn of(
     let departure = |(n, shape): (usize, &Shape)| Departure {
         radiance: bins.pool(&beyond.index_axis(Axis(0), n).to_owned()),
         reflectance: shape.slope_and_offset(),
-        changes: bins.pool(&changes[n]),
+        changes: Some(bins.pool(&changes[n])),
     };
     let mut known: Vec<Departure> = all.iter().enumerate().map(departure).collect();
     let measured = known.split_off(FORMULAS.len());

@@ -50,7 +50,7 @@ pub struct Ingredients<'a> {
     /// Waveband by channel.
     sensitivities: DMatrix<f64>,
     conditions: Conditions,
-    /// Radiance of the facets minus that of a Lambertian sheet.
+    /// The sheet's departure from a Lambertian one.
     beyond: Departure,
     facets: Predicted<'a>,
 }
