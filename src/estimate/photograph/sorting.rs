@@ -63,7 +63,10 @@ impl Series {
                 of_a.cmp(&of_b).then(a.order(b))
             });
             let start = nearest.map_or(start, |one| &one.solution.w).clone();
-            let ln_best = before().map(Tried::ln_weight).fold(f64::NEG_INFINITY, f64::max);
+            // real sheets may yet gain by a smaller model error: ideal folds are no measure for them
+            let is_ideal = |of: &Hypothesis| of.imperfection.is_ideal();
+            let rivals = before().filter(|one| is_ideal(&hypothesis) || !is_ideal(&one.hypothesis));
+            let ln_best = rivals.map(Tried::ln_weight).fold(f64::NEG_INFINITY, f64::max);
             let one = (hypothesis, hypothesis.ln_share(stated));
             let one = search.sort(one, Some(start), ln_best + LN_EVIDENCE_HOPELESS);
             let is_far = one.as_ref().is_none_or(|one| one.ln_weight() < ln_best + self.ln_far);
