@@ -41,7 +41,7 @@
 //! stream               -> paper, surfaces, estimate, forward, kernel, response, solve, geometry, spectrum
 //! stream               -> image, calibrate, score, plot, colorimetry, progress, parallel, files, room
 //! paper                -> surfaces, estimate, forward, kernel, response, solve, geometry, camera, room
-//! estimate             -> forward, kernel, response, solve, geometry, camera, spectrum, image
+//! estimate             -> forward, sheet, kernel, response, solve, geometry, camera, spectrum, image
 //! surfaces             -> forward, kernel, response, solve, geometry, camera, image
 //! forward              -> response, geometry, camera, image, colorimetry, spectrum
 //! transport            -> sheet, kernel, geometry

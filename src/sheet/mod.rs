@@ -10,12 +10,14 @@ mod family;
 mod fresnel;
 mod measured;
 mod place;
+mod powers;
 mod table;
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use nalgebra::Vector3;
+use pulp::Arch;
 
 use crate::kernel::quadrature::Rule;
 
@@ -23,6 +25,7 @@ pub use angles::{AngleList, Angles};
 pub use family::Family;
 use family::Terms;
 pub use measured::{measured, measured_names};
+pub use powers::POWERS;
 use table::Table;
 
 /// Quadrature nodes in the cosines and the azimuth for albedos.
@@ -103,10 +106,13 @@ impl Shape {
     pub fn at_each(&self, angles: &AngleList) -> [Vec<f64>; 2] {
         let [mut bodies, mut surfaces] = self.parts.at_each(angles);
         let [of_body, of_surface] = self.instrument;
-        for (body, surface) in bodies.iter_mut().zip(&mut surfaces) {
-            *body /= of_body;
-            *surface -= of_surface * *body;
-        }
+        let scale = 1.0 / of_body;
+        Arch::new().dispatch(|| {
+            for (body, surface) in bodies.iter_mut().zip(&mut surfaces) {
+                *body *= scale;
+                *surface -= of_surface * *body;
+            }
+        });
         [bodies, surfaces]
     }
 

@@ -15,8 +15,11 @@ pub(super) const PARTS: usize = 2;
 pub(super) struct Place {
     /// Index of the first number of the cell.
     pub(super) first: u32,
-    /// Position within the cell: angles of incidence and exit, azimuth.
-    pub(super) into: [f32; 3],
+    /// Weights of the corners of the cell: those of its own angles of incidence and exit, of the next angle
+    /// of exit, of the next angle of incidence, and of both.
+    pub(super) corners: [f32; 4],
+    /// Position between its azimuth and the next.
+    pub(super) azimuth: f32,
 }
 
 impl Place {
@@ -27,7 +30,8 @@ impl Place {
             [cos_in, cos_out].map(|cos| cell(cos.acos().to_degrees() / STEEPEST_DEG, &NODES.0));
         let (azimuth, c) = cell(cos_azimuth.acos().to_degrees() / 180.0, &NODES.1);
         let first = PARTS * ((light * ANGLES + eye) * AZIMUTHS + azimuth);
-        Self { first: first as u32, into: [a, b, c] }
+        let corners = [(1.0 - a) * (1.0 - b), (1.0 - a) * b, a * (1.0 - b), a * b];
+        Self { first: first as u32, corners, azimuth: c }
     }
 }
 

@@ -6,6 +6,8 @@
 
 use std::sync::Arc;
 
+use pulp::Arch;
+
 use super::angles::AngleList;
 use super::place::{ANGLES, AZIMUTHS, PARTS, Place};
 
@@ -29,25 +31,38 @@ impl Table {
 
     /// Body and surface at the place of each of many pairs of directions.
     pub(super) fn at_each(&self, angles: &AngleList) -> [Vec<f64>; 2] {
-        let (body, surface) = angles.places.iter().map(|place| self.at(place).into()).unzip();
-        [body, surface]
+        let mut reflections = [0, 1].map(|_| vec![0.0; angles.len()]);
+        let [body, surface] = &mut reflections;
+        Arch::new().dispatch(|| {
+            for ((body, surface), place) in body.iter_mut().zip(surface).zip(&angles.places) {
+                [*body, *surface] = self.at(place);
+            }
+        });
+        reflections
     }
 
     /// Body and surface at a place.
+    #[inline(always)]
     pub(super) fn at(&self, place: &Place) -> [f64; 2] {
-        const STEPS: [usize; 2] = [PARTS * AZIMUTHS * ANGLES, PARTS * AZIMUTHS];
-        let Place { first, into: [a, b, c] } = *place;
+        let Place { first, corners, azimuth } = *place;
+        let cells = self.0[first as usize..].first_chunk::<CELL>();
         // of one azimuth, then of the next
         let mut sums = [0.0_f32; 2 * PARTS];
-        let corners =
-            [(0, 0, (1.0 - a) * (1.0 - b)), (0, 1, (1.0 - a) * b), (1, 0, a * (1.0 - b)), (1, 1, a * b)];
-        for (light, eye, weight) in corners {
-            let start = first as usize + light * STEPS[0] + eye * STEPS[1];
-            if let Some(values) = self.0[start..].first_chunk::<{ 2 * PARTS }>() {
+        for (start, weight) in CORNERS.into_iter().zip(corners) {
+            if let Some(values) = cells.and_then(|cells| cells[start..].first_chunk::<{ 2 * PARTS }>()) {
                 sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
             }
         }
         let [body, surface, next_body, next_surface] = sums;
-        [body + c * (next_body - body), surface + c * (next_surface - surface)].map(f64::from)
+        [body + azimuth * (next_body - body), surface + azimuth * (next_surface - surface)].map(f64::from)
     }
 }
+
+/// Where the values at the corners of a cell start, relative to its first: the angles of incidence and exit
+/// are those of the cell or the next ones.
+const CORNERS: [usize; 4] = {
+    let [light, eye] = [PARTS * AZIMUTHS * ANGLES, PARTS * AZIMUTHS];
+    [0, eye, light, light + eye]
+};
+/// Numbers from the first of a cell to its last.
+const CELL: usize = CORNERS[3] + 2 * PARTS;

@@ -12,11 +12,11 @@ pub mod points;
 mod pooling;
 
 use nalgebra::{Point3, Vector3};
-use ndarray::{Array2, Array3, Axis};
+use ndarray::{Array2, Array3, Axis, concatenate};
 use rayon::prelude::*;
 
 use crate::geometry::Fold;
-use crate::sheet::Shape;
+use crate::sheet::{POWERS, Shape};
 use frame::Frame;
 use patches::Patches;
 use points::Points;
@@ -62,16 +62,33 @@ pub fn departures(
     let points = Points::new(fold, &frames);
     let patches = (!fold.is_flat()).then(|| Patches::new(fold, &frames));
     let lambertian = patches.as_ref().map(|patches| patches.radiances(&Shape::lambertian()));
-    let shares = patches::shares(albedos);
     let departure = |shape: &Shape| {
-        let mut beyond = points.departures(shape, albedos);
-        if let (Some(patches), Some(lambertian)) = (&patches, &lambertian) {
-            beyond += &patches.pooled(&(patches.radiances(shape) - lambertian)).dot(&shares);
-        }
-        beyond
+        let more = patches.iter().zip(&lambertian).map(|(patches, matt)| patches.radiances(shape) - matt);
+        (points.departures(shape), more.collect())
     };
-    let each: Vec<Array2<f64>> = shapes.par_iter().map(departure).collect();
+    let (few, more): (Vec<_>, Vec<Vec<_>>) = shapes.par_iter().map(departure).unzip();
     let mut all = Array3::zeros((shapes.len(), 2 * fold.facets().len(), albedos.len()));
-    all.axis_iter_mut(Axis(0)).zip(&each).for_each(|(mut all, one)| all.assign(one));
+    if shapes.is_empty() {
+        return all;
+    }
+    let powers = Array2::from_shape_fn((POWERS, albedos.len()), |(power, n)| albedos[n].powi(power as i32));
+    add(&mut all, &points.pooled(&side_by_side(&few)), &powers);
+    if let Some(patches) = &patches {
+        let more: Vec<_> = more.into_iter().flatten().collect();
+        add(&mut all, &patches.pooled(&side_by_side(&more)), &patches.shares(albedos));
+    }
     all
+}
+
+/// The columns of all matrices: what is the same for all of their rows is then done once.
+fn side_by_side(all: &[Array2<f64>]) -> Array2<f64> {
+    let views: Vec<_> = all.iter().map(|one| one.view()).collect();
+    concatenate(Axis(1), &views).unwrap_or_default()
+}
+
+/// Adds to all shapes their facets at each albedo: those at nodes or of powers, side by side, times their
+/// `shares` in each albedo.
+fn add(all: &mut Array3<f64>, facets: &Array2<f64>, shares: &Array2<f64>) {
+    let each = facets.axis_chunks_iter(Axis(1), shares.nrows());
+    all.axis_iter_mut(Axis(0)).zip(each).for_each(|(mut all, one)| all += &one.dot(shares));
 }

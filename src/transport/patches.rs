@@ -35,9 +35,11 @@ const PLACES: usize = 4;
 const REFLECTIONS: usize = 40;
 /// Neglected light, relative to what the sun sends.
 const NEGLIGIBLE: f64 = 5e-5;
-/// Albedo nodes: the contribution of three or more reflections is small and smooth, but matters for dark
-/// sheets, too.
-const NODES: usize = 7;
+/// Albedo nodes. Light of all reflections grows like 1 / (1 − a·r) towards the albedo at which none is lost,
+/// where `r` is the share of its light that a panel exchanges with the other; the rest is smooth.
+const NODES: usize = 6;
+/// Iterations for that share, which need not be exact.
+const ITERATIONS: usize = 8;
 
 /// The patches of both panels, with all directions between them.
 pub struct Patches {
@@ -48,6 +50,8 @@ pub struct Patches {
     between_1: Option<AngleList>,
     /// True if both panels send the same: the sun is on the bisecting plane of a symmetric fold.
     alike: bool,
+    /// Share of its light that either panel sends to the other, of what is reflected often.
+    exchanged: f64,
     pooling: Pooling,
 }
 
@@ -78,8 +82,10 @@ impl Patches {
         let to = directions(&frames[0]);
         let to_1 = (!fold.is_symmetric()).then(|| directions(&frames[1]));
         let seen = [&to, to_1.as_ref().unwrap_or(&to)];
+        let panels = [0, 1].map(|p| Panel::new(&frames[p], &wedge, &middles, seen[p]));
         Self {
-            panels: [0, 1].map(|p| Panel::new(&frames[p], &wedge, &middles, seen[p])),
+            exchanged: exchanged(&panels),
+            panels,
             between: pairs(&to),
             between_1: to_1.as_ref().map(|to| pairs(to)),
             alike: fold.is_symmetric() && frames[0].sun == frames[1].sun,
@@ -88,12 +94,33 @@ impl Patches {
     }
 
     /// Radiance towards the eye of light reflected three times or more: patches of both panels by albedo
-    /// nodes, between which [`shares`] interpolates.
+    /// nodes, between which [`Self::shares`] interpolates.
     #[must_use]
     pub fn radiances(&self, shape: &Shape) -> Array2<f64> {
+        self.radiances_at(shape, &nodes(NODES))
+    }
+
+    fn radiances_at(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
         // Uses the widest vectors of the processor. Every lane is summed separately, so the results do not
         // depend on the width.
-        Arch::new().dispatch(Radiances { patches: self, shape })
+        Arch::new().dispatch(Radiances { patches: self, shape, albedos })
+    }
+
+    /// Weights of the nodes at these albedos: node by albedo.
+    #[must_use]
+    pub fn shares(&self, albedos: &[f64]) -> Array2<f64> {
+        self.shares_of(&nodes(NODES), albedos)
+    }
+
+    fn shares_of(&self, nodes: &[f64], albedos: &[f64]) -> Array2<f64> {
+        let left = |albedo: f64| 1.0 - albedo * self.exchanged;
+        let lagrange = Lagrange::new(nodes);
+        let mut shares = Array2::zeros((albedos.len(), nodes.len()));
+        for (albedo, mut row) in albedos.iter().zip(shares.rows_mut()) {
+            lagrange.at(*albedo, row.as_slice_mut().unwrap_or_default());
+            row.iter_mut().zip(nodes).for_each(|(share, node)| *share *= left(*node) / left(*albedo));
+        }
+        shares.reversed_axes()
     }
 
     /// Facet means.
@@ -137,6 +164,7 @@ impl Patches {
 struct Radiances<'a> {
     patches: &'a Patches,
     shape: &'a Shape,
+    albedos: &'a [f64],
 }
 
 impl WithSimd for Radiances<'_> {
@@ -145,7 +173,7 @@ impl WithSimd for Radiances<'_> {
     // Inlined functions are compiled for those vectors; called ones are not.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Array2<f64> {
-        let Self { patches, shape } = self;
+        let Self { patches, shape, albedos } = self;
         let panels = &patches.panels;
         // the sending panels: only one if both send the same
         let sending = &panels[..if patches.alike { 1 } else { 2 }];
@@ -156,10 +184,9 @@ impl WithSimd for Radiances<'_> {
         let buffer = |parts: &Parts| vec![0.0; parts.body.len()];
         let mut matrices: Vec<Vec<f32>> = between.iter().flatten().map(buffer).collect();
         let (mut from_sun, mut to_eye) = (buffer(&sun[0]), buffer(&eye[0]));
-        let albedos = nodes();
         let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
-        for (n, albedo) in albedos.into_iter().enumerate() {
-            let r = shape.reflectance_factor_45_0(albedo) as f32;
+        for (n, albedo) in albedos.iter().enumerate() {
+            let r = shape.reflectance_factor_45_0(*albedo) as f32;
             for (between, matrix) in between.iter().flatten().zip(&mut matrices) {
                 between.mix(r, matrix);
             }
@@ -224,20 +251,22 @@ impl Parts {
     }
 }
 
-/// The albedo nodes.
-fn nodes() -> Vec<f64> {
-    Rule::gauss_legendre(NODES).on(0.0, 1.0).map(|(albedo, _)| albedo).collect()
+/// Albedo nodes.
+fn nodes(count: usize) -> Vec<f64> {
+    Rule::gauss_legendre(count).on(0.0, 1.0).map(|(albedo, _)| albedo).collect()
 }
 
-/// Interpolation weights of the nodes at these albedos: node by albedo.
-#[must_use]
-pub fn shares(albedos: &[f64]) -> Array2<f64> {
-    let nodes = Lagrange::new(&nodes());
-    let mut shares = Array2::zeros((albedos.len(), NODES));
-    for (albedo, mut row) in albedos.iter().zip(shares.rows_mut()) {
-        nodes.at(*albedo, row.as_slice_mut().unwrap_or_default());
+/// Geometric mean of the shares of its light that either panel sends to the other, by the power method.
+fn exchanged(panels: &[Panel; 2]) -> f64 {
+    let (mut light, mut shares) = (vec![1.0_f32; COUNT], [0.0; 2]);
+    for n in 0..2 * ITERATIONS {
+        let rows = panels[n % 2].factors.as_chunks::<COUNT>().0.iter();
+        light = rows.map(|row| row.iter().zip(&light).map(|(factor, sent)| factor * sent).sum()).collect();
+        let most = light.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
+        light.iter_mut().for_each(|value| *value /= most);
+        shares[n % 2] = f64::from(most) / PI;
     }
-    shares.reversed_axes()
+    (shares[0] * shares[1]).sqrt()
 }
 
 #[inline(always)]
@@ -385,7 +414,38 @@ mod tests {
 
     use super::*;
     use crate::geometry::FacetGrid;
-    use crate::sheet::Family;
+    use crate::sheet::{Family, measured};
+
+    /// Whatever the sheet, a few albedos tell what many do.
+    #[test]
+    fn few_albedos_tell_all_others() {
+        let albedos: Vec<f64> = (0..20).map(|n| f64::from(n) * 0.05).collect();
+        let glossy = [(1.0, 0.28), (0.4, 0.65)].map(|(specular_weight, roughness)| Family {
+            specular_weight,
+            roughness,
+            ..Family::default()
+        });
+        let others = [
+            Family { body_roughness_deg: 25.0, ..Family::default() },
+            Family { sheen: 1.0, ..Family::default() },
+        ];
+        let formulas = glossy.into_iter().chain(others).map(Shape::from);
+        let shapes: Vec<Shape> = formulas.chain(measured().unwrap().iter().cloned()).collect();
+        for (angle_deg, sun) in [(48.0, [0.0, 0.0, 1.0]), (80.0, [0.2, 0.1, 1.0])] {
+            let fold = Fold::new(angle_deg, 1.0, 1.0, FacetGrid { rows: 4, cols: 4 }).unwrap();
+            let eye = Point3::new(1.0, 1.1, 8.4);
+            let frames = [0, 1].map(|panel| Frame::new(&fold, panel, &Vector3::from(sun), &eye));
+            let patches = Patches::new(&fold, &frames);
+            for shape in &shapes {
+                let [few, many] = [NODES, 12].map(|count| {
+                    let nodes = nodes(count);
+                    patches.radiances_at(shape, &nodes).dot(&patches.shares_of(&nodes, &albedos))
+                });
+                let rms = ((&few - &many).pow2().sum() / few.len() as f64).sqrt();
+                assert!(rms < 1e-3, "{angle_deg}°: {rms:.1e}");
+            }
+        }
+    }
 
     /// Just off the bisecting plane the sun needs both panels followed; exactly on it, one suffices.
     #[test]

@@ -15,7 +15,7 @@ use super::frame::Frame;
 use super::pooling::Pooling;
 use crate::geometry::Fold;
 use crate::kernel::quadrature::Rule;
-use crate::sheet::{AngleList, Angles, Shape};
+use crate::sheet::{AngleList, Angles, POWERS, Shape};
 
 /// Numbers of points and directions.
 #[derive(Clone, Copy)]
@@ -79,22 +79,27 @@ impl Points {
         Self { lit, from_sun, paths, pooling }
     }
 
-    /// Facet means of the radiance towards the eye minus that of a Lambertian sheet: facets by albedos.
+    /// Radiance towards the eye minus that of a Lambertian sheet: point by power of the albedo.
     #[must_use]
-    pub fn departures(&self, shape: &Shape, albedos: &[f64]) -> Array2<f64> {
-        let mut values = Array2::zeros((self.lit.len(), albedos.len()));
+    pub fn departures(&self, shape: &Shape) -> Array2<f64> {
+        let mut departures = Array2::zeros((self.lit.len(), POWERS));
         let [body, surface] = shape.at_each(&self.from_sun);
         let twice = self.paths.twice(shape, self.lit.len());
-        for (point, (mut row, lit)) in values.outer_iter_mut().zip(&self.lit).enumerate() {
-            let twice = twice[point];
-            for (value, &albedo) in row.iter_mut().zip(albedos) {
-                let (r, lambertian) = (shape.reflectance_factor_45_0(albedo), albedo * FRAC_1_PI);
-                let once = r * body[point] + surface[point] - lambertian;
-                let twice = r * (r * twice[0] + twice[1]) + twice[2] - lambertian * lambertian * twice[3];
+        for (point, (mut row, lit)) in departures.outer_iter_mut().zip(&self.lit).enumerate() {
+            let (mut once, (mut twice, of_matt)) = (shape.once([body[point], surface[point]]), twice[point]);
+            once[1] -= FRAC_1_PI;
+            twice[2] -= of_matt;
+            for (value, (once, twice)) in row.iter_mut().zip(once.iter().zip(twice)) {
                 *value = PI * (lit[0] * once + lit[1] * twice);
             }
         }
-        self.pooling.pool(&values)
+        departures
+    }
+
+    /// Facet means.
+    #[must_use]
+    pub fn pooled(&self, of_points: &Array2<f64>) -> Array2<f64> {
+        self.pooling.pool(of_points)
     }
 }
 
@@ -128,22 +133,22 @@ impl Paths {
         }
     }
 
-    /// Doubly reflected light per π times the other panel's irradiance, at each of the points: both by the
-    /// body, one by each, both by the surface; and for two reflections of 1/sr.
-    fn twice(&self, shape: &Shape, points: usize) -> Vec<[f64; 4]> {
+    /// Doubly reflected light per π times the other panel's irradiance, at each of the points, by power of
+    /// the albedo; and that of a Lambertian sheet of albedo 1.
+    fn twice(&self, shape: &Shape, points: usize) -> Vec<([f64; POWERS], f64)> {
         let [body, surface] = shape.at_each(&self.at_other);
         let [next_body, next_surface] = shape.at_each(&self.at_point);
         let of_point = self.weights.len() / points;
         let twice = |point: usize| {
-            let mut sums = [0.0; 4];
+            let (mut sums, mut matt) = ([0.0; 3], 0.0);
             for n in point * of_point..(point + 1) * of_point {
                 let weight = self.weights[n];
                 sums[0] += weight * body[n] * next_body[n];
                 sums[1] += weight * (body[n] * next_surface[n] + surface[n] * next_body[n]);
                 sums[2] += weight * surface[n] * next_surface[n];
-                sums[3] += weight;
+                matt += weight;
             }
-            sums
+            (shape.twice(sums), FRAC_1_PI * FRAC_1_PI * matt)
         };
         (0..points).map(twice).collect()
     }
@@ -152,6 +157,7 @@ impl Paths {
 #[cfg(test)]
 mod tests {
     use nalgebra::Point3;
+    use ndarray::arr1;
 
     use super::*;
     use crate::geometry::FacetGrid;
@@ -177,7 +183,9 @@ mod tests {
             let fine = Orders { points: [14, 10], directions: [20, 20] };
             let [few, many] = [ORDERS, fine].map(|orders| Points::with(orders, &fold, &frames));
             for (family, bound) in glossy.into_iter().zip([3e-3; 3]).chain([(rough, 1e-3)]) {
-                let [a, b] = [&few, &many].map(|points| points.departures(&family.into(), &[0.4]));
+                let [a, b] = [&few, &many].map(|points| {
+                    points.pooled(&points.departures(&family.into())).dot(&arr1(&[1.0, 0.4, 0.16]))
+                });
                 let rms = ((&a - &b).pow2().sum() / a.len() as f64).sqrt();
                 assert!(rms < bound * 0.4, "{angle_deg}° {family:?}: {rms:.1e}");
             }

@@ -8,7 +8,8 @@ use nalgebra::DMatrix;
 use super::chebyshev::{NODES, nodes};
 use super::conditions::Conditions;
 use super::parts::{Parts, Radiance};
-use super::sheets::{CHANGES, CREASE_RADII, Departure, POWERS};
+use super::sheets::{CHANGES, CREASE_RADII, Departure};
+use crate::sheet::POWERS;
 use crate::solve::dense::{add, columns};
 
 /// Additional radiance of a sheet under these conditions.

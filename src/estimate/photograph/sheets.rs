@@ -14,8 +14,8 @@ pub struct Departure {
     pub radiance: Radiance,
     /// Its 45:0 reflectance is the first number times its albedo, plus the second.
     pub reflectance: [f64; 2],
-    /// Changes of that radiance with the shape of the fold and the place of the sun: facet by [`POWERS`] for
-    /// each of [`CHANGES`].
+    /// Changes of that radiance with the shape of the fold and the place of the sun: facet by
+    /// [`POWERS`](crate::sheet::POWERS) for each of [`CHANGES`].
     /// `None` if it has none.
     pub changes: Option<DMatrix<f64>>,
 }
@@ -25,8 +25,6 @@ pub const CREASE_RADII: [f64; 2] = [0.012, 0.03];
 /// Number of changes: with the crease rounded at each of [`CREASE_RADII`], per degree by which the facet's
 /// own panel bows, and per degree of the sun's tilt.
 pub const CHANGES: usize = 4;
-/// Powers of the albedo in each, from 0 on: light is reflected twice at most.
-pub const POWERS: usize = 3;
 
 impl Departure {
     /// The departure of a Lambertian sheet itself.

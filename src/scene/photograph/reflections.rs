@@ -12,10 +12,9 @@ use nalgebra::{Vector2, Vector3};
 use ndarray::{Array2, Axis};
 
 use super::bends::{BOWS_DEG, Bends};
-use crate::estimate::photograph::sheets::POWERS;
 use crate::geometry::Fold;
 use crate::kernel::bent::{BentExchange, Incoming};
-use crate::sheet::{AngleList, Angles, Shape};
+use crate::sheet::{AngleList, Angles, POWERS, Shape};
 
 /// Rows that begin further from the crease, in panel depths, get no light reflected twice.
 const TWICE: f64 = 0.3;
@@ -115,29 +114,26 @@ impl Paths {
     /// Radiance beyond that of a Lambertian sheet, relative to that of a perfect diffuser facing the sun:
     /// row by power of the albedo.
     fn departures(&self, shape: &Shape) -> Array2<f64> {
-        let [slope, offset] = shape.slope_and_offset();
         let mut sums = Array2::zeros((self.rows, POWERS));
         let mut add = |row: usize, weight: f64, powers: [f64; POWERS]| {
             sums.row_mut(row).iter_mut().zip(powers).for_each(|(sum, power)| *sum += weight * power);
         };
         let [body, surface] = shape.at_each(&self.at_point);
         for (n, (row, lit)) in self.once.iter().enumerate() {
-            add(*row, PI * lit, [offset * body[n] + surface[n], slope * body[n] - FRAC_1_PI, 0.0]);
+            let mut once = shape.once([body[n], surface[n]]);
+            once[1] -= FRAC_1_PI;
+            add(*row, PI * lit, once);
         }
         let [body, surface] = shape.at_each(&self.at_patch);
         let [next_body, next_surface] = shape.at_each(&self.next_at_point);
         for (n, (row, lit)) in self.twice.iter().enumerate() {
-            let [twice, once, never] = [
+            let mut twice = shape.twice([
                 body[n] * next_body[n],
                 body[n] * next_surface[n] + surface[n] * next_body[n],
                 surface[n] * next_surface[n],
-            ];
-            let powers = [
-                offset * (offset * twice + once) + never,
-                slope * (2.0 * offset * twice + once),
-                slope * slope * twice - FRAC_1_PI * FRAC_1_PI,
-            ];
-            add(*row, PI * PI * lit, powers);
+            ]);
+            twice[2] -= FRAC_1_PI * FRAC_1_PI;
+            add(*row, PI * PI * lit, twice);
         }
         sums
     }
