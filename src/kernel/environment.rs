@@ -50,15 +50,16 @@ impl Surroundings {
 
 /// Parts of the surroundings, represented by directions with shares of their light.
 pub struct Environment<const PARTS: usize> {
-    /// Unit vectors towards the light, coordinate by coordinate.
-    rays: [Vec<f64>; 3],
+    /// Unit vectors towards the light, coordinate by coordinate. Single precision is far finer than sums over
+    /// directions are exact.
+    rays: [Vec<f32>; 3],
     /// For each part the range of its rays, those above or those below, and each ray's irradiance on a plane
     /// facing it.
-    irradiances: [(Range<usize>, Vec<f64>); PARTS],
+    irradiances: [(Range<usize>, Vec<f32>); PARTS],
 }
 
 /// Numbers processed at once: the vectors of every processor hold a power of two up to this.
-const LANES: usize = 8;
+const LANES: usize = 16;
 const _: () = assert!(DIRECTIONS.is_multiple_of(LANES));
 
 impl<const PARTS: usize> Environment<PARTS> {
@@ -66,7 +67,7 @@ impl<const PARTS: usize> Environment<PARTS> {
     /// [`Fold::panels`].
     #[must_use]
     pub fn new(parts: [Surroundings; PARTS], up: Vector3<f64>) -> Self {
-        let mut rays: [Vec<f64>; 3] = Default::default();
+        let mut rays: [Vec<f32>; 3] = Default::default();
         let mut irradiances = std::array::from_fn(|_| (0..0, Vec::new()));
         for (pole, is_below) in [(up, false), (-up, true)] {
             let is_of = |part: &Surroundings| (*part == Surroundings::Ground) == is_below;
@@ -84,12 +85,12 @@ impl<const PARTS: usize> Environment<PARTS> {
             let all: Vec<(f64, Vector3<f64>)> = (0..DIRECTIONS).map(ray).collect();
             let first = rays[0].len();
             for (axis, coordinates) in rays.iter_mut().enumerate() {
-                coordinates.extend(all.iter().map(|(_, towards)| towards[axis]));
+                coordinates.extend(all.iter().map(|(_, towards)| towards[axis] as f32));
             }
             for (part, irradiance) in parts.iter().zip(&mut irradiances).filter(|(part, _)| is_of(part)) {
                 let radiance = |(height, towards): &(f64, Vector3<f64>)| part.radiance(towards, *height);
                 let horizontal: f64 = all.iter().map(|ray| ray.0 * radiance(ray)).sum();
-                let by_ray = all.iter().map(|ray| radiance(ray) / horizontal);
+                let by_ray = all.iter().map(|ray| (radiance(ray) / horizontal) as f32);
                 *irradiance = (first..first + DIRECTIONS, by_ray.collect());
             }
         }
@@ -138,12 +139,12 @@ impl<const PARTS: usize> WithSimd for Gathered<'_, PARTS> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Vec<[f64; PARTS]> {
         let Self { light, line, normal, along, screens } = self;
-        let rays = light.rays.each_ref().map(|coordinates| S::as_simd_f64s(coordinates).0);
-        let zero = simd.splat_f64s(0.0);
+        let rays = light.rays.each_ref().map(|coordinates| S::as_simd_f32s(coordinates).0);
+        let zero = simd.splat_f32s(0.0);
         let mut open = vec![zero; rays[0].len()];
         let normal = splat(simd, normal);
         for (n, cosine) in open.iter_mut().enumerate() {
-            *cosine = simd.max_f64s(projected(simd, normal, rays, n), zero);
+            *cosine = simd.max_f32s(projected(simd, normal, rays, n), zero);
         }
         // Of each screen in front of the line: its half width, the height of the line above it, and for each
         // ray that meets its plane within its depth the cosine of approach, by which lengths are multiplied
@@ -156,41 +157,41 @@ impl<const PARTS: usize> WithSimd for Gathered<'_, PARTS> {
                 continue;
             }
             let (towards, outwards) = (splat(simd, -facing), splat(simd, height * out));
-            let [from_crease, depth] = [out.dot(&place), *depth].map(|value| simd.splat_f64s(value));
+            let [from_crease, depth] = [out.dot(&place), *depth].map(|value| simd.splat_f32s(value as f32));
             let mut approaches = vec![zero; rays[0].len()];
             for (n, met) in approaches.iter_mut().enumerate() {
                 let approach = projected(simd, towards, rays, n);
-                let met_out = simd.mul_add_f64s(from_crease, approach, projected(simd, outwards, rays, n));
+                let met_out = simd.mul_add_f32s(from_crease, approach, projected(simd, outwards, rays, n));
                 let within_depth =
-                    simd.min_f64s(met_out, simd.sub_f64s(simd.mul_f64s(depth, approach), met_out));
-                let within = simd.min_f64s(approach, within_depth);
-                *met = simd.select_f64s(simd.greater_than_f64s(within, zero), approach, zero);
+                    simd.min_f32s(met_out, simd.sub_f32s(simd.mul_f32s(depth, approach), met_out));
+                let within = simd.min_f32s(approach, within_depth);
+                *met = simd.select_f32s(simd.greater_than_f32s(within, zero), approach, zero);
             }
-            met.push(([*half_width, height].map(|value| simd.splat_f64s(value)), approaches));
+            met.push(([*half_width, height].map(|value| simd.splat_f32s(value as f32)), approaches));
         }
-        let lanes = DIRECTIONS / S::as_simd_f64s(&light.rays[0][..DIRECTIONS]).0.len();
+        let lanes = DIRECTIONS / S::as_simd_f32s(&light.rays[0][..DIRECTIONS]).0.len();
         let mut cosines = vec![zero; open.len()];
         let mut all = Vec::with_capacity(along.len());
         // no closure: it would not be compiled for wide vectors
         for place in along {
-            let place = simd.splat_f64s(*place);
+            let place = simd.splat_f32s(*place as f32);
             for (n, (cosine, open)) in cosines.iter_mut().zip(&open).enumerate() {
                 *cosine = *open;
                 for ([half_width, height], approaches) in &met {
-                    let (approach, height) = (approaches[n], simd.mul_f64s(*height, rays[1][n]));
-                    let met_along = simd.abs_f64s(simd.mul_add_f64s(place, approach, height));
-                    let is_hidden = simd.less_than_f64s(met_along, simd.mul_f64s(*half_width, approach));
-                    *cosine = simd.select_f64s(is_hidden, zero, *cosine);
+                    let (approach, height) = (approaches[n], simd.mul_f32s(*height, rays[1][n]));
+                    let met_along = simd.abs_f32s(simd.mul_add_f32s(place, approach, height));
+                    let is_hidden = simd.less_than_f32s(met_along, simd.mul_f32s(*half_width, approach));
+                    *cosine = simd.select_f32s(is_hidden, zero, *cosine);
                 }
             }
             let mut sums = [0.0; PARTS];
             for (sum, (rays, irradiances)) in sums.iter_mut().zip(&light.irradiances) {
                 let of_part = &cosines[rays.start / lanes..rays.end / lanes];
                 let mut products = zero;
-                for (cosine, irradiance) in of_part.iter().zip(S::as_simd_f64s(irradiances).0) {
-                    products = simd.mul_add_f64s(*cosine, *irradiance, products);
+                for (cosine, irradiance) in of_part.iter().zip(S::as_simd_f32s(irradiances).0) {
+                    products = simd.mul_add_f32s(*cosine, *irradiance, products);
                 }
-                *sum = simd.reduce_sum_f64s(products);
+                *sum = f64::from(simd.reduce_sum_f32s(products));
             }
             all.push(sums);
         }
@@ -200,14 +201,14 @@ impl<const PARTS: usize> WithSimd for Gathered<'_, PARTS> {
 
 /// One vector, repeated for many rays.
 #[inline(always)]
-fn splat<S: Simd>(simd: S, vector: Vector3<f64>) -> [S::f64s; 3] {
-    [simd.splat_f64s(vector.x), simd.splat_f64s(vector.y), simd.splat_f64s(vector.z)]
+fn splat<S: Simd>(simd: S, vector: Vector3<f64>) -> [S::f32s; 3] {
+    [vector.x, vector.y, vector.z].map(|value| simd.splat_f32s(value as f32))
 }
 
 /// Dot products of rays with a vector.
 #[inline(always)]
-fn projected<S: Simd>(simd: S, [a, b, c]: [S::f64s; 3], [x, y, z]: [&[S::f64s]; 3], n: usize) -> S::f64s {
-    simd.mul_add_f64s(a, x[n], simd.mul_add_f64s(b, y[n], simd.mul_f64s(c, z[n])))
+fn projected<S: Simd>(simd: S, [a, b, c]: [S::f32s; 3], [x, y, z]: [&[S::f32s]; 3], n: usize) -> S::f32s {
+    simd.mul_add_f32s(a, x[n], simd.mul_add_f32s(b, y[n], simd.mul_f32s(c, z[n])))
 }
 
 /// Radiance of the facets of a bent sheet in each of these lights, for each part, all bounces included; a

@@ -167,6 +167,62 @@ pub fn cholesky(mut matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     is_definite.then(|| Cholesky::pack_dirty(matrix))
 }
 
+/// The inverse of a lower triangular matrix, transposed; what is above the diagonal of the matrix itself is
+/// not read.
+#[must_use]
+pub fn inverse_transposed(lower: &DMatrix<f64>) -> DMatrix<f64> {
+    let count = lower.nrows();
+    let mut inverse = DMatrix::zeros(count, count);
+    Arch::new().dispatch(Inversion {
+        lower: lower.as_slice(),
+        inverse: inverse.as_mut_slice(),
+        known: vec![0.0; BLOCK * count],
+        count,
+    });
+    inverse
+}
+
+/// Forward substitution for all unit vectors at once, a block of rows after the other.
+struct Inversion<'a> {
+    lower: &'a [f64],
+    /// Row by row.
+    inverse: &'a mut [f64],
+    /// What the rows before contribute to a block, row by row.
+    known: Vec<f64>,
+    count: usize,
+}
+
+impl WithSimd for Inversion<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { lower, inverse, mut known, count } = self;
+        for first in (0..count).step_by(BLOCK) {
+            let rows = first..count.min(first + BLOCK);
+            let (before, own) = inverse.split_at_mut(first * count);
+            let known = &mut known[..rows.len() * count];
+            known.fill(0.0);
+            // the transposed product: columns of the inverse by rows of the block
+            let factors = Factors { left: before, right: lower, heights: [count; 2], inner: 0..first };
+            Product { sum: known, height: count, factors, rows: 0..first, columns: rows.clone() }
+                .add(simd, simd.splat_f64s(-1.0));
+            for (n, known) in rows.clone().zip(known.chunks_exact(count)) {
+                let (before, own) = own.split_at_mut((n - first) * count);
+                let own = &mut own[..=n];
+                own[..n].copy_from_slice(&known[..n]);
+                own[n] = 1.0;
+                for (m, before) in (first..n).zip(before.chunks_exact(count)) {
+                    let share = lower[m * count + n];
+                    own.iter_mut().zip(&before[..=m]).for_each(|(own, value)| *own -= share * value);
+                }
+                let diagonal = lower[n * count + n];
+                own.iter_mut().for_each(|value| *value /= diagonal);
+            }
+        }
+    }
+}
+
 /// The factorisation of a matrix in its own place.
 ///
 /// # Source
@@ -387,6 +443,8 @@ mod tests {
             (0..inner).for_each(|n| definite[(n, n)] += 1.0);
             let factor = cholesky(definite.clone()).unwrap().l();
             assert!((&factor * factor.transpose() - &definite).amax() < 1e-11);
+            let inverse = inverse_transposed(&factor).transpose();
+            assert!((inverse * &factor - DMatrix::identity(inner, inner)).amax() < 1e-11);
             definite[(inner - 1, inner - 1)] = -1.0;
             assert!(cholesky(definite).is_none());
         }
@@ -404,6 +462,7 @@ mod tests {
         }
         assert_eq!(squares(&matrix(0, 2)), DMatrix::zeros(2, 2));
         assert_eq!(squares(&matrix(2, 0)).len(), 0);
+        assert_eq!(inverse_transposed(&matrix(0, 0)).len(), 0);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::corners::shifts;
 use super::day::Day;
 use super::parts::Place;
 use super::priors::Priors;
-use crate::solve::dense::{add, add_rows, cholesky, columns};
+use crate::solve::dense::{add, add_rows, cholesky, columns, inverse_transposed};
 
 /// Correlated error of facets, relative to their values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +47,11 @@ impl<'a> ModelError<'a> {
         });
         let at_sides: Vec<f64> = places.iter().map(|place| self.at_sides(place)).collect();
         let [shared, own, white, corner, aside] = self.variances();
+        // its lower triangle is all that is factored
         let covariance = |i: usize, j: usize| {
+            if i < j {
+                return 0.0;
+            }
             let ((a, c), (b, d)) = ((i % facets, i / facets), (j % facets, j / facets));
             let own = if c == d { own } else { 0.0 };
             let mut relative = (shared + own) * correlations[(a.max(b), a.min(b))];
@@ -68,14 +72,7 @@ impl<'a> ModelError<'a> {
         let side = |i: usize| if places[i % facets].panel == 0 { values[i] } else { -values[i] };
         let sides = DVector::from_fn(count, |i, _| side(i));
         covariance.ger(aside, &sides, &sides, 1.0);
-        let factor = cholesky(covariance)?.unpack();
-        let mut inverse = DMatrix::zeros(count, count);
-        for n in 0..count {
-            // entries before the diagonal remain 0
-            let mut column = inverse.view_mut((n, n), (count - n, 1));
-            column[0] = 1.0;
-            factor.view((n, n), (count - n, count - n)).solve_lower_triangular_mut(&mut column);
-        }
+        let inverse = inverse_transposed(cholesky(covariance)?.l_dirty()).transpose();
         let ln_determinant = inverse.diagonal().iter().map(|value| value.ln()).sum();
         Some(Whitening { inverse, ln_determinant })
     }

@@ -1,11 +1,12 @@
 //! Exchange of light between the parts of a bent sheet, and the light that its facets gather.
 
-use nalgebra::{Cholesky, DMatrix, Vector2, Vector3};
+use nalgebra::{DMatrix, Vector2, Vector3};
 use ndarray::Array2;
 
 use crate::error::{Error, Result};
 use crate::geometry::Fold;
 use crate::kernel::quadrature::Rule;
+use crate::solve::dense::cholesky;
 
 use super::columns::Columns;
 use super::section::{self, Strip};
@@ -244,7 +245,7 @@ impl BentExchange {
         for (n, area) in self.areas.iter().enumerate() {
             system[(n, n)] += area / albedo;
         }
-        let left = Cholesky::new(system).map(|factors| factors.solve(power));
+        let left = cholesky(system).map(|factors| factors.solve(power));
         let left =
             left.ok_or_else(|| Error::Numeric(format!("no light escapes a bent sheet of albedo {albedo}")))?;
         Ok(&self.gather[symmetry as usize] * left)
