@@ -4,6 +4,8 @@ use std::sync::LazyLock;
 
 use nalgebra::DMatrix;
 
+use crate::solve::dense::product;
+
 /// Number of albedo nodes, sufficient for all bounces.
 pub const NODES: usize = 10;
 
@@ -22,26 +24,20 @@ pub(super) fn weights(points: &[f64]) -> (DMatrix<f64>, DMatrix<f64>) {
         at_nodes.try_inverse().unwrap_or_else(|| DMatrix::identity(NODES, NODES))
     });
     let (values, slopes) = polynomials(points);
-    (&*COEFFICIENTS * values, &*COEFFICIENTS * slopes)
+    (product(&COEFFICIENTS, &values), product(&COEFFICIENTS, &slopes))
 }
 
 /// Chebyshev polynomials on [0, 1] at `points`, and their derivatives: polynomial by point.
 fn polynomials(points: &[f64]) -> (DMatrix<f64>, DMatrix<f64>) {
     let (mut values, mut slopes) = (DMatrix::zeros(NODES, points.len()), DMatrix::zeros(NODES, points.len()));
-    for (column, point) in points.iter().enumerate() {
+    let [of_values, of_slopes] =
+        [&mut values, &mut slopes].map(|all| all.as_mut_slice().as_chunks_mut::<NODES>().0);
+    for ((values, slopes), point) in of_values.iter_mut().zip(of_slopes).zip(points) {
         let x = 2.0 * point - 1.0;
-        for n in 0..NODES {
-            let (value, slope) = match n {
-                0 => (1.0, 0.0),
-                1 => (x, 2.0),
-                _ => (
-                    2.0 * x * values[(n - 1, column)] - values[(n - 2, column)],
-                    4.0 * values[(n - 1, column)] + 2.0 * x * slopes[(n - 1, column)]
-                        - slopes[(n - 2, column)],
-                ),
-            };
-            values[(n, column)] = value;
-            slopes[(n, column)] = slope;
+        [values[0], values[1], slopes[1]] = [1.0, x, 2.0];
+        for n in 2..NODES {
+            values[n] = 2.0 * x * values[n - 1] - values[n - 2];
+            slopes[n] = 4.0 * values[n - 1] + 2.0 * x * slopes[n - 1] - slopes[n - 2];
         }
     }
     (values, slopes)

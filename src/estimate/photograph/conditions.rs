@@ -72,7 +72,9 @@ impl Conditions {
     /// Whether sky and ground light the facets as under `other` conditions, in whatever amounts and colours.
     pub(super) fn distribute_alike(&self, other: &Self) -> bool {
         let places = |of: &Self| [of.cloud, of.elevation_deg, of.angle_deg, of.bow_deg, of.crease_radius];
+        let has_even_sky = |of: &Self| of.even_sky > 0.0;
         iter::zip(places(self), places(other)).all(|(a, b)| a.total_cmp(&b).is_eq())
+            && has_even_sky(self) == has_even_sky(other)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Facets predicted from a spectrum and conditions.
 
 use std::borrow::Cow;
+use std::iter;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,7 +12,7 @@ use super::lighting::Lighting;
 use super::parts::{Ambient, Parts, Radiance, Surroundings};
 use super::sheets::Departure;
 use crate::estimate::unknowns::Whose;
-use crate::solve::dense::add_product;
+use crate::solve::dense::{add_product, product};
 
 /// Values of the terms for a spectrum of albedo: functions of albedo that are 1 at one node and 0 at the
 /// others.
@@ -64,9 +65,7 @@ impl Predicted<'_> {
     pub fn with_terms(&self, terms: &DMatrix<f64>) -> DMatrix<f64> {
         let mut radiances = DMatrix::zeros(self.radiances.nrows(), self.radiances.ncols());
         for light in &self.lights {
-            let mut to_channels = DMatrix::zeros(terms.nrows(), light.weights.ncols());
-            add_product(&mut to_channels, terms, &light.weights);
-            add_product(&mut radiances, &light.radiance, &to_channels);
+            add_product(&mut radiances, &light.radiance, &product(terms, &light.weights));
         }
         self.lens.seen(radiances)
     }
@@ -96,15 +95,21 @@ impl<'a> Predictor<'a, '_> {
                 add_product(&mut radiances, &more, &sun.to_channels);
                 here.lens.seen(radiances)
             }
-            Whose::Light => {
-                let surroundings = match &here.lights[..] {
-                    [_, sky, ground, ..] if conditions.distribute_alike(&here.conditions) => {
-                        Some([sky, ground].map(|light| Cow::Borrowed(light.radiance.as_ref())))
+            Whose::Light if conditions.distribute_alike(&here.conditions) => {
+                let lighting = Lighting::new(self.parts, conditions);
+                let mut radiances = here.radiances.clone();
+                for (light, power) in here.lights.iter().zip(self.powers(&lighting, conditions)) {
+                    if power != light.power {
+                        let more = self.to_channels(&self.weights(&power)) - &light.to_channels;
+                        add_product(&mut radiances, &light.radiance, &more);
                     }
-                    _ => self.surroundings(conditions),
-                };
+                }
+                Lens::new(self.parts, conditions, &lighting).seen(radiances)
+            }
+            Whose::Light => {
                 // the radiance includes the sun's amount
-                self.in_light(conditions, Cow::Borrowed(sun.radiance.as_ref()), surroundings).values
+                let sunlit = Cow::Borrowed(sun.radiance.as_ref());
+                self.in_light(conditions, sunlit, self.surroundings(conditions)).values
             }
             Whose::Scene => self.facets(conditions, beyond).values,
             Whose::Lens => Lens::new(self.parts, conditions, &here.lighting).seen(here.radiances.clone()),
@@ -121,6 +126,26 @@ impl<'a> Predictor<'a, '_> {
         })
     }
 
+    /// Power of every light: of the sun, of sky and ground in daylight, and of a uniform sky if there is one.
+    fn powers(&self, lighting: &Lighting, conditions: &Conditions) -> Vec<DVector<f64>> {
+        let is_daylight = self.parts.stated.daylight.is_some();
+        let ambient = lighting.ambient.iter().filter(|_| is_daylight).map(|(amount, power)| *amount * power);
+        let even_sky = (conditions.even_sky > 0.0).then(|| conditions.even_sky * &lighting.ambient[0].1);
+        iter::once(lighting.sun.clone()).chain(ambient).chain(even_sky).collect()
+    }
+
+    /// Sensitivities to light of this power: waveband by channel.
+    fn weights(&self, power: &DVector<f64>) -> DMatrix<f64> {
+        let mut weights = self.sensitivities.clone();
+        weights.column_iter_mut().for_each(|mut channel| channel.component_mul_assign(power));
+        weights
+    }
+
+    /// Effect of the radiance at the nodes in the channels: node by channel.
+    fn to_channels(&self, weights: &DMatrix<f64>) -> DMatrix<f64> {
+        product(&self.terms.values, weights)
+    }
+
     fn in_light<'l>(
         &self,
         conditions: &Conditions,
@@ -130,23 +155,16 @@ impl<'a> Predictor<'a, '_> {
     where
         'a: 'l,
     {
-        let Self { parts, terms, sensitivities } = self;
+        let Self { parts, sensitivities, .. } = self;
         let lighting = Lighting::new(parts, conditions);
-        let light = |radiance, power: DVector<f64>| {
-            let mut weights = (*sensitivities).clone();
-            weights.column_iter_mut().for_each(|mut channel| channel.component_mul_assign(&power));
-            let mut to_channels = DMatrix::zeros(terms.values.nrows(), weights.ncols());
-            add_product(&mut to_channels, &terms.values, &weights);
+        let light = |(radiance, power): (Cow<'l, Radiance>, DVector<f64>)| {
+            let weights = self.weights(&power);
+            let to_channels = self.to_channels(&weights);
             Light { radiance, power, weights, to_channels }
         };
-        let mut lights = vec![light(sunlit, lighting.sun.clone())];
-        for (radiance, (amount, power)) in surroundings.into_iter().flatten().zip(&lighting.ambient) {
-            lights.push(light(radiance, *amount * power));
-        }
-        if conditions.even_sky > 0.0 {
-            let power = conditions.even_sky * &lighting.ambient[0].1;
-            lights.push(light(Cow::Borrowed(&parts.even_sky), power));
-        }
+        let even_sky = Cow::Borrowed(&parts.even_sky);
+        let radiances = iter::once(sunlit).chain(surroundings.into_iter().flatten()).chain([even_sky]);
+        let lights: Vec<_> = radiances.zip(self.powers(&lighting, conditions)).map(light).collect();
         let lens = Lens::new(parts, conditions, &lighting);
         let mut radiances = DMatrix::zeros(parts.places.len(), sensitivities.ncols());
         for light in &lights {

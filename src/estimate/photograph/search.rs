@@ -181,7 +181,7 @@ fn add_emitting(search: &mut Search<Photographs>, all: &mut Vec<Tried>) -> Optio
         }
         let hypothesis = Hypothesis { emission: Some(place), ..of_best };
         let model = family.model(hypothesis, broad)?;
-        let start = model.carried(&plain, &w);
+        let mut start = model.carried(&plain, &w);
         let [.., of_emission, _] = model.first().model.layout();
         let size = *model.first().places.get(of_emission)?;
         let changes = SIZES.map(|(probability, number)| {
@@ -191,6 +191,12 @@ fn add_emitting(search: &mut Search<Photographs>, all: &mut Vec<Tried>) -> Optio
         });
         drop(model);
         if is_hopeful(&test, &changes, emission, &logit) {
+            // the usual size is far from the mode of a sheet that hardly emits
+            let off = |((_, number), (_, change)): &((f64, f64), &(f64, DVector<f64>))| {
+                (&residuals - change).norm_squared() + number * number
+            };
+            let nearest = iter::zip(SIZES, &changes).min_by(|a, b| off(a).total_cmp(&off(b)));
+            start[size] = nearest.map_or(0.0, |((_, number), _)| number);
             let tried = search.sort((hypothesis, ln_share), Some(start), ln_best + LN_EVIDENCE_HOPELESS);
             ln_gains.extend(tried.iter().map(|one| one.ln_weight() - ln_best + emission.ln_share(&logit)));
             found.extend(tried);
