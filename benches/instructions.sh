@@ -52,7 +52,10 @@ counts() {
     "$bin/vkernel" --angle-deg 50 >in
     count 'vextract: a picture of 640 x 480 pixels' vextract photo.exr --camera canon-5d-mark-ii \
         --panel0 '332.1,462.5 345.3,77.1 121.9,11.9 103.9,442.2' --panel1 '332.1,462.5 345.3,77.1 484.9,16.7 472.0,453.4'
+    mv out photograph
     count 'vextract --find: the same picture' vextract --find photo.exr
+    mv photograph in
+    count 'vestimate: the photograph' vestimate
 }
 
 # beside OLD: the counts on standard input beside those of a file, and by how much they differ.
