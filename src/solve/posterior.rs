@@ -252,7 +252,9 @@ pub fn find_mode<M: Model>(
         if search.trace.len() >= limits.iterations {
             break Termination::IterationLimit;
         }
-        if search.ln_evidence_most(&newton) < limits.ln_evidence {
+        // the start may be that of another model, far from where this one is nearly linear
+        let is_started = !search.trace.is_empty();
+        if is_started && search.ln_evidence_most(&newton) < limits.ln_evidence {
             break Termination::NoProgress { gradient_norm };
         }
         steps += 1;
