@@ -167,19 +167,18 @@ pub fn cholesky(mut matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     is_definite.then(|| Cholesky::pack_dirty(matrix))
 }
 
-/// The inverse of a lower triangular matrix, transposed; what is above the diagonal of the matrix itself is
-/// not read.
+/// The inverse of a lower triangular matrix, of which what is above the diagonal is not read.
 #[must_use]
-pub fn inverse_transposed(lower: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn inverse_of_lower(lower: &DMatrix<f64>) -> DMatrix<f64> {
     let count = lower.nrows();
-    let mut inverse = DMatrix::zeros(count, count);
+    let mut by_row = DMatrix::zeros(count, count);
     Arch::new().dispatch(Inversion {
         lower: lower.as_slice(),
-        inverse: inverse.as_mut_slice(),
+        inverse: by_row.as_mut_slice(),
         known: vec![0.0; BLOCK * count],
         count,
     });
-    inverse
+    by_row.transpose()
 }
 
 /// Forward substitution for all unit vectors at once, a block of rows after the other.
@@ -443,8 +442,7 @@ mod tests {
             (0..inner).for_each(|n| definite[(n, n)] += 1.0);
             let factor = cholesky(definite.clone()).unwrap().l();
             assert!((&factor * factor.transpose() - &definite).amax() < 1e-11);
-            let inverse = inverse_transposed(&factor).transpose();
-            assert!((inverse * &factor - DMatrix::identity(inner, inner)).amax() < 1e-11);
+            assert!((inverse_of_lower(&factor) * &factor - DMatrix::identity(inner, inner)).amax() < 1e-11);
             definite[(inner - 1, inner - 1)] = -1.0;
             assert!(cholesky(definite).is_none());
         }
@@ -462,7 +460,7 @@ mod tests {
         }
         assert_eq!(squares(&matrix(0, 2)), DMatrix::zeros(2, 2));
         assert_eq!(squares(&matrix(2, 0)).len(), 0);
-        assert_eq!(inverse_transposed(&matrix(0, 0)).len(), 0);
+        assert_eq!(inverse_of_lower(&matrix(0, 0)).len(), 0);
     }
 
     #[test]

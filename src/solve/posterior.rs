@@ -50,8 +50,8 @@ const LEAST_PROMISE: f64 = 0.01;
 const CORRECTIONS: usize = 2;
 const KEPT: f64 = 0.1;
 /// At the noise of a stage the linear model foresees the evidence of a mode so well that it hardly ever gains
-/// more than this share of the predicted decrease beyond it, and this logarithm: in `../shared/train` one
-/// search of 400 that would have counted does. At less noise it may foresee far too little.
+/// more than this share of the predicted decrease beyond it, and this logarithm (searches of photographs in
+/// `../shared/train`). At less noise, or before the first step, it may foresee far too little.
 const BEYOND_FORESEEN: f64 = 0.1;
 const LN_BEYOND_FORESEEN: f64 = 1.0;
 
@@ -252,7 +252,7 @@ pub fn find_mode<M: Model>(
         if search.trace.len() >= limits.iterations {
             break Termination::IterationLimit;
         }
-        // the start may be that of another model, far from where this one is nearly linear
+        // the start may be the mode of another model, where this one is far from linear
         let is_started = !search.trace.is_empty();
         if is_started && search.ln_evidence_most(&newton) < limits.ln_evidence {
             break Termination::NoProgress { gradient_norm };

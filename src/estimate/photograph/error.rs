@@ -8,7 +8,7 @@ use super::corners::shifts;
 use super::day::Day;
 use super::parts::Place;
 use super::priors::Priors;
-use crate::solve::dense::{add, add_rows, cholesky, columns, inverse_transposed};
+use crate::solve::dense::{add, add_rows, cholesky, columns, inverse_of_lower};
 
 /// Correlated error of facets, relative to their values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,7 +72,7 @@ impl<'a> ModelError<'a> {
         let side = |i: usize| if places[i % facets].panel == 0 { values[i] } else { -values[i] };
         let sides = DVector::from_fn(count, |i, _| side(i));
         covariance.ger(aside, &sides, &sides, 1.0);
-        let inverse = inverse_transposed(cholesky(covariance)?.l_dirty()).transpose();
+        let inverse = inverse_of_lower(cholesky(covariance)?.l_dirty());
         let ln_determinant = inverse.diagonal().iter().map(|value| value.ln()).sum();
         Some(Whitening { inverse, ln_determinant })
     }
