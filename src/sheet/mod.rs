@@ -1,9 +1,14 @@
 //! The reflection of a sheet: a coloured body and a colourless surface, each with its own angular shape.
 //!
-//! `f(a) = (a − s)/b · B + S`, 1/sr, where `a` is the sheet's bihemispherical albedo in a waveband (its
-//! reflectance averaged over cosine-weighted directions of incidence and exit), `B` the body, normalised to
-//! `π·B = 1` at 45°:0°, `S` the surface, 0 there, and `b` and `s` their albedos. The 45°:0° reflectance
-//! factor, as a spectrophotometer measures it, is then `ρ = (a − s)/b`.
+//! `f = ρ(1 − κρ) · B + κρ²/π + S`, 1/sr, where `ρ` is the sheet's 45°:0° reflectance factor in a waveband,
+//! as a spectrophotometer measures it, `B` the body, normalised to `π·B = 1` at 45°:0°, and `S` the surface,
+//! 0 there. Between upright fibres, bright felt scatters light so often that it leaves equally in all
+//! directions, dark felt does not: κ is how much of the body that levels at a reflectance of 1, and 0 for
+//! other sheets.
+//!
+//! The sheet's albedo `a`, which transport between panels depends on most, is `ρ = (a − s)/b` with the
+//! bihemispherical albedos `b` of body and `s` of surface (averages over cosine-weighted directions of
+//! incidence and exit); of bright felt it leaves out the levelling.
 
 mod angles;
 mod family;
@@ -13,7 +18,7 @@ mod place;
 mod powers;
 mod table;
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_PI, PI};
 use std::sync::LazyLock;
 
 use nalgebra::Vector3;
@@ -25,7 +30,7 @@ pub use angles::{AngleList, Angles};
 pub use family::Family;
 use family::Terms;
 pub use measured::{measured, measured_names};
-pub use powers::POWERS;
+pub use powers::{POWERS, Twice};
 use table::Table;
 
 /// Quadrature nodes in the cosines and the azimuth for albedos.
@@ -40,6 +45,8 @@ pub struct Shape {
     instrument: [f64; 2],
     /// Albedos of the normalised body and surface.
     albedos: [f64; 2],
+    /// κ: how much of the body light scattered often levels at a reflectance of 1.
+    levelling: f64,
 }
 
 /// The source of body and surface.
@@ -55,7 +62,7 @@ impl From<Family> for Shape {
         if [body_roughness_deg, specular_weight, sheen].iter().all(|effect| effect.abs() <= 0.0) {
             return Self::lambertian();
         }
-        Self::of(Parts::Family(Terms::new(family)))
+        Self::of(Parts::Family(Terms::new(family)), 0.0)
     }
 }
 
@@ -67,12 +74,13 @@ impl Shape {
             parts: Parts::Family(Terms::new(Family::default())),
             instrument: [1.0, 0.0],
             albedos: [1.0, 0.0],
+            levelling: 0.0,
         }
     }
 
-    fn of(parts: Parts) -> Self {
+    fn of(parts: Parts, levelling: f64) -> Self {
         let instrument = parts.at(&Angles::instrument()).map(|value| PI * value);
-        let mut shape = Self { parts, instrument, albedos: [1.0, 0.0] };
+        let mut shape = Self { parts, instrument, albedos: [1.0, 0.0], levelling };
         shape.albedos = shape.at_each(&HEMISPHERES.0).map(|reflections| bihemispherical(&reflections));
         shape
     }
@@ -116,7 +124,7 @@ impl Shape {
         [bodies, surfaces]
     }
 
-    /// Weight of the body in a sheet of this albedo, which is also its 45°:0° reflectance factor.
+    /// The 45°:0° reflectance factor of a sheet of this albedo.
     ///
     /// # Example
     /// ```
@@ -140,7 +148,22 @@ impl Shape {
     #[must_use]
     pub fn brdf(&self, albedo: f64, angles: &Angles) -> f64 {
         let [body, surface] = self.at(angles);
-        self.reflectance_factor_45_0(albedo) * body + surface
+        let [of_body, level] = self.weights(albedo);
+        of_body * body + level + surface
+    }
+
+    /// Weight of the body in a sheet of this albedo, and what it reflects equally in all directions, 1/sr.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::sheet::{Family, Shape};
+    /// assert_eq!(Shape::from(Family { sheen: 0.0, ..Family::default() }).weights(0.3), [0.3, 0.0]);
+    /// ```
+    #[must_use]
+    pub fn weights(&self, albedo: f64) -> [f64; 2] {
+        let reflectance = self.reflectance_factor_45_0(albedo);
+        let level = self.levelling * reflectance * reflectance;
+        [reflectance - level, FRAC_1_PI * level]
     }
 }
 

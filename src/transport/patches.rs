@@ -34,7 +34,7 @@ const PLACES: usize = 4;
 /// Maximum number of reflections followed one by one.
 const REFLECTIONS: usize = 40;
 /// Neglected light, relative to what the sun sends.
-const NEGLIGIBLE: f64 = 5e-5;
+const NEGLIGIBLE: f64 = 1e-4;
 /// Albedo nodes. Light of all reflections grows like 1 / (1 − a·r) towards the albedo at which none is lost,
 /// where `r` is the share of its light that a panel exchanges with the other; the rest is smooth.
 const NODES: usize = 6;
@@ -133,7 +133,7 @@ impl Patches {
     #[inline(always)]
     fn sent(&self, direct: Vec<Vec<f32>>, matrices: [&Vec<f32>; 2]) -> Vec<Vec<f32>> {
         let first = total(&direct);
-        let (mut before, mut ratio) = (first, 0.0);
+        let (mut before, mut ratio, mut change) = (first, 0.0, f64::INFINITY);
         let mut sent = vec![vec![0.0; COUNT * COUNT]; direct.len()];
         let mut light = direct;
         for _ in 1..REFLECTIONS {
@@ -145,11 +145,12 @@ impl Patches {
             let now = total(&light);
             add(&mut sent, &light, 1.0);
             let last = std::mem::replace(&mut ratio, now / before.max(f64::MIN_POSITIVE));
+            let last_change = std::mem::replace(&mut change, (ratio - last).abs());
             before = now;
             let tail = ratio.min(0.999) / (1.0 - ratio.min(0.999));
-            // from here on the light decays geometrically
+            // from here on the light decays geometrically; one ratio like the last may be chance
             if now * tail < NEGLIGIBLE * first
-                || (ratio - last).abs() * now * tail * tail < NEGLIGIBLE * first
+                || change.max(last_change) * now * tail * tail < NEGLIGIBLE * first
             {
                 break;
             }
@@ -186,19 +187,19 @@ impl WithSimd for Radiances<'_> {
         let (mut from_sun, mut to_eye) = (buffer(&sun[0]), buffer(&eye[0]));
         let mut radiances = Array2::zeros((2 * COUNT, albedos.len()));
         for (n, albedo) in albedos.iter().enumerate() {
-            let r = shape.reflectance_factor_45_0(*albedo) as f32;
+            let weights = shape.weights(*albedo).map(|weight| weight as f32);
             for (between, matrix) in between.iter().flatten().zip(&mut matrices) {
-                between.mix(r, matrix);
+                between.mix(weights, matrix);
             }
             let mut direct = Vec::with_capacity(2);
             for (panel, sun) in sending.iter().zip(&sun) {
-                sun.mix(r, &mut from_sun);
+                sun.mix(weights, &mut from_sun);
                 direct.push(panel.direct(&from_sun));
             }
             let sent = patches.sent(direct, [&matrices[0], &matrices[matrices.len() - 1]]);
             for p in 0..2 {
                 let (panel, sent) = (&panels[p], &sent[(1 - p).min(sent.len() - 1)]);
-                eye[p].mix(r, &mut to_eye);
+                eye[p].mix(weights, &mut to_eye);
                 for i in 0..COUNT {
                     let mut sum = 0.0;
                     for j in 0..COUNT {
@@ -242,11 +243,11 @@ impl Parts {
         Self { body: all(&self.body), surface: all(&self.surface) }
     }
 
-    /// The body times `r`, plus the surface.
+    /// Body and surface under the [weights](Shape::weights) of an albedo.
     #[inline(always)]
-    fn mix(&self, r: f32, mixed: &mut [f32]) {
+    fn mix(&self, [of_body, level]: [f32; 2], mixed: &mut [f32]) {
         for ((mixed, body), surface) in mixed.iter_mut().zip(&self.body).zip(&self.surface) {
-            *mixed = r * body + surface;
+            *mixed = of_body * body + (surface + level);
         }
     }
 }

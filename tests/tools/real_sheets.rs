@@ -150,7 +150,7 @@ fn a_little_gloss_is_not_taken_for_bounces() {
 #[test]
 fn measured_materials_give_their_reflectance() {
     let Some(materials) = sidecars("materials") else { return };
-    for (exposure, most) in [("--exposure 1", 0.035), ("--exposure free", 0.06)] {
+    for (exposure, most) in [("--exposure 1", 0.03), ("--exposure free", 0.042)] {
         let all: Vec<Outcome> = materials.iter().map(|path| of_material(path, exposure)).collect();
         println!("{exposure}");
         print_table(&all);
@@ -165,15 +165,15 @@ fn measured_materials_give_their_reflectance() {
 #[test]
 fn measured_materials_left_out_in_turn() {
     let Some(materials) = sidecars("materials") else { return };
-    // with their exposure 0.035 while numbers were looked at with these in view; photographs of `train` ask
-    // for a smaller discrepancy, these do not
-    for (exposure, most) in [(Some(1.0), 0.0405), (None, 0.06)] {
+    for (exposure, most) in [(Some(1.0), 0.03), (None, 0.042)] {
         let all: Vec<Outcome> =
             materials.iter().map(|path| left_out_of_what_is_known(path, exposure)).collect();
         println!("left out, exposure {exposure:?}");
         print_table(&all);
         let error = mean(&all.iter().collect::<Vec<_>>(), |one| one.mean_error);
         assert!(error < most, "{exposure:?}: {error}");
+        let within = mean(&all.iter().collect::<Vec<_>>(), |one| one.within_two_sd);
+        assert!(within > 0.85, "{exposure:?}: {within}");
     }
 }
 

@@ -14,7 +14,7 @@ use ndarray::{Array2, Axis};
 use super::bends::{BOWS_DEG, Bends};
 use crate::geometry::Fold;
 use crate::kernel::bent::{BentExchange, Incoming};
-use crate::sheet::{AngleList, Angles, POWERS, Shape};
+use crate::sheet::{AngleList, Angles, POWERS, Shape, Twice};
 
 /// Rows that begin further from the crease, in panel depths, get no light reflected twice.
 const TWICE: f64 = 0.3;
@@ -126,14 +126,14 @@ impl Paths {
         }
         let [body, surface] = shape.at_each(&self.at_patch);
         let [next_body, next_surface] = shape.at_each(&self.next_at_point);
+        let mut of_rows = vec![Twice::default(); self.rows];
         for (n, (row, lit)) in self.twice.iter().enumerate() {
-            let mut twice = shape.twice([
-                body[n] * next_body[n],
-                body[n] * next_surface[n] + surface[n] * next_body[n],
-                surface[n] * next_surface[n],
-            ]);
-            twice[2] -= FRAC_1_PI * FRAC_1_PI;
-            add(*row, PI * PI * lit, twice);
+            of_rows[*row].add(*lit, [body[n], surface[n]], [next_body[n], next_surface[n]]);
+        }
+        for (row, sums) in of_rows.iter().enumerate() {
+            let mut twice = shape.twice(sums);
+            twice[2] -= FRAC_1_PI * FRAC_1_PI * sums.weight();
+            add(row, PI * PI, twice);
         }
         sums
     }
