@@ -90,10 +90,15 @@ impl<'a> Photographs<'a> {
             let [scene, ..] = member.model.layout();
             let numbers = member.model.numbers.iter().zip(scene..);
             let fitted = numbers.filter(|(number, _)| number.matters).map(|(number, n)| {
-                let (value, slope) = number.at(w[n]);
+                let (value, _) = number.at(w[n]);
                 let value = if number.unknown == &EXPOSURE { exposure } else { value };
                 let sd = widened * own.column(member.places[n]).norm();
-                Fitted { unknown: number.unknown, value, sd: sd * slope.abs(), supported: sd < SUPPORTED }
+                Fitted {
+                    unknown: number.unknown,
+                    value,
+                    sd: number.spread(w[n], sd),
+                    supported: sd < SUPPORTED,
+                }
             });
             Seen {
                 exposure,
