@@ -58,7 +58,8 @@ impl Number {
         self.prior.value(self.unknown.scale, w)
     }
 
-    /// Root mean square deviation from the value at `w`, in the unit of the unknown, if `w` is uncertain by `sd`.
+    /// Root mean square deviation from the value at `w`, in the unit of the unknown, if `w` is uncertain by
+    /// `sd`.
     #[must_use]
     pub fn spread(&self, w: f64, sd: f64) -> f64 {
         let (value, _) = self.at(w);
