@@ -124,6 +124,36 @@ impl Channels {
         along
     }
 
+    /// The maps and data in other coordinates, in which data have independent errors of 1 if their noise is
+    /// `noise` and the camera's response has these `errors`, shares of it by channel and waveband; and the
+    /// logarithm of the determinant of the change.
+    pub fn whitened(
+        &self,
+        data: &DVector<f64>,
+        (terms, amounts): (&DMatrix<f64>, &DVector<f64>),
+        (noise, errors): (f64, &[(usize, DVector<f64>)]),
+    ) -> Option<(Self, DVector<f64>, f64)> {
+        let (mut all, mut data, mut ln_determinant) = (self.clone(), data.clone(), 0.0);
+        for (channel, rows) in self.rows.iter().enumerate() {
+            let mut covariance = DMatrix::from_diagonal_element(rows.len(), rows.len(), noise * noise);
+            for (_, error) in errors.iter().filter(|(of, _)| *of == channel) {
+                let mut off = DVector::zeros(rows.len());
+                for (Lit { compressed, weights, .. }, amount) in self.sources.iter().zip(amounts) {
+                    let light = terms.tr_mul(&weights.column(channel).component_mul(error));
+                    off.gemv(*amount, &compressed.rows(rows.start, rows.len()), &light, 1.0);
+                }
+                covariance.ger(1.0, &off, &off, 1.0);
+            }
+            let lower = covariance.cholesky()?.unpack();
+            ln_determinant -= lower.diagonal().map(f64::ln).sum();
+            lower.solve_lower_triangular_mut(&mut data.rows_mut(rows.start, rows.len()));
+            for Lit { compressed, .. } in &mut all.sources {
+                lower.solve_lower_triangular_mut(&mut compressed.rows_mut(rows.start, rows.len()));
+            }
+        }
+        Some((all, data, ln_determinant))
+    }
+
     /// The sum over channels and sources in these amounts, per waveband, given what each source's sum is of
     /// the terms.
     pub fn sum_of(

@@ -164,7 +164,7 @@ impl SpectrumModel for Facets<'_> {
     }
 
     fn ln_whitening(&self) -> f64 {
-        0.0
+        self.data.ln_whitening
     }
 }
 

@@ -14,6 +14,7 @@ use nalgebra::DVector;
 
 use super::Estimate;
 use super::alternatives::Alternatives;
+use super::camera_errors::{SURPRISE, seen_by_another};
 use super::data::FacetData;
 use super::doubt::EXPLAINED;
 use super::emission::Emission;
@@ -23,7 +24,7 @@ use super::light::{Candidate, InferredLight, Others, lights_in_order, rival};
 use super::mixture::Mixture;
 use super::prior::Prior;
 use super::rival::Rival;
-use super::search::Search;
+use super::search::{Search, Sorted};
 use super::searched::{Lit, Searched, Trace};
 use super::unknowns::Expected;
 use crate::error::{Error, Result};
@@ -100,18 +101,36 @@ impl<'a> Sheet<'_, 'a> {
         let all = self.sorted((start, may_emit), trace);
         let rival = others.and_then(|others| rival(self.data, all.split_first()?, others, self.prior));
         let emits = all.iter().any(Lit::emits);
+        let Sorted { solution, ln_evidence, .. } = &all.first()?.sorted;
+        let (surprise, plain) = (solution.surprise(self.tempering), (solution.w.clone(), *ln_evidence));
         let found = Searched::among(all, self.prior, trace)?;
+        let found = self.explained(found, (may_emit, emits), trace)?;
+        let is_usual = surprise.max(found.mixture.best.surprise) < SURPRISE;
+        if is_usual || self.lights.len() > 1 {
+            return Some((found, rival));
+        }
+        let off = seen_by_another(found.plain(), plain, self.prior, trace);
+        Some((found.and(off), rival))
+    }
+
+    /// What was found, or what is found with emission, or without it, if that explains the facets better.
+    fn explained(
+        &self,
+        found: Searched<'a>,
+        (may_emit, emits): (bool, bool),
+        trace: &mut Trace,
+    ) -> Option<Searched<'a>> {
         let rms = found.mixture.best.rms;
         // precise facets whose residuals reach a noise at which emission is considered may belong to a
         // fluorescent sheet
         let is_open = if may_emit { emits } else { rms > self.tempering };
         if rms < EXPLAINED || !is_open {
-            return Some((found, rival));
+            return Some(found);
         }
         // the evidence of sheets that do not explain the facets is meaningless
         let other = Searched::among(self.sorted((None, !may_emit), trace), self.prior, trace)?;
         let is_better = may_emit || other.mixture.best.rms < EXPLAINED;
-        Some((if is_better { other } else { found }, rival))
+        Some(if is_better { other } else { found })
     }
 
     /// The facets in each light that remains possible, under all spectra as one Gaussian: of a sheet without

@@ -6,6 +6,7 @@ use super::family::{Family, SpectrumModel};
 use super::linear::{Candidate, LinearMode, Start};
 use super::prior::Prior;
 use crate::solve::Termination;
+use crate::solve::ln_sum;
 use crate::solve::posterior::{Iteration, Linearised, Model, Solution};
 
 /// Spectra of a class count as one if their root mean square difference is less.
@@ -126,5 +127,30 @@ impl<H: Copy, S> Mixture<H, S> {
         let hypotheses = hypotheses.chain(unsearched.iter().map(|one| one.hypothesis));
         let shares = hypotheses.zip(odds.iter().map(|odds| odds / sum)).collect();
         Some(Self { values: values.data.into(), spread, shares, best: modes.swap_remove(0), ln_evidence })
+    }
+
+    /// The mean of two mixtures of the same values, weighted by evidence, with errors widened by their distance.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        let ln_evidence = ln_sum(&[self.ln_evidence, other.ln_evidence]);
+        let [own, others] = [&self, &other].map(|one| (one.ln_evidence - ln_evidence).exp());
+        let values = |(a, b): (&f64, &f64)| own * a + others * b;
+        let apart = self.values.iter().zip(&other.values).map(|(a, b)| (own * others).sqrt() * (a - b));
+        let spread = self.spread.as_ref().zip(other.spread.as_ref()).map(|(a, b)| {
+            let (a, b) = (own.sqrt() * a, others.sqrt() * b);
+            let rows = a.row_iter().chain(b.row_iter()).map(nalgebra::Matrix::into_owned);
+            DMatrix::from_rows(
+                &rows.chain([RowDVector::from_iterator(self.values.len(), apart)]).collect::<Vec<_>>(),
+            )
+        });
+        let shares = self.shares.iter().map(|(one, share)| (*one, own * share));
+        let shares = shares.chain(other.shares.iter().map(|(one, share)| (*one, others * share))).collect();
+        Self {
+            values: self.values.iter().zip(&other.values).map(values).collect(),
+            spread,
+            shares,
+            best: if own >= others { self.best } else { other.best },
+            ln_evidence,
+        }
     }
 }

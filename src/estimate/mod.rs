@@ -4,6 +4,7 @@
 
 mod alternatives;
 mod built_in;
+mod camera_errors;
 mod channels;
 pub mod classes;
 mod compress;

@@ -3,15 +3,16 @@
 use super::alternatives::Alternatives;
 use super::data::FacetData;
 use super::emission::Emission;
-use super::facets::Second;
+use super::facets::{Facets, Second};
 use super::fluorescence::Fluorescence;
 use super::fluorescence_search;
+use super::linear::Start;
 use super::mixture::Mixture;
 use super::prior::Prior;
 use super::search::{Search, Sorted};
 use super::unknowns::{EXPOSURE, SUPPORTED};
 use super::{Estimate, Fitted};
-use crate::solve::posterior::Iteration;
+use crate::solve::posterior::{Iteration, Model};
 
 /// An exposure, which has no prior, is supported by the facets if its standard deviation is below this share
 /// of its value.
@@ -63,6 +64,17 @@ impl<'a> Searched<'a> {
         Some(Self { mixture, lights, alternatives })
     }
 
+    /// The facets of a sheet without emission.
+    pub fn plain(&self) -> &FacetData<'a> {
+        self.alternatives.get(0)
+    }
+
+    /// The mean of these modes and those of `other`, if any, in which no sheet emits, weighted by evidence.
+    pub fn and(self, other: Option<Self>) -> Self {
+        let Some(other) = other else { return self };
+        Self { mixture: self.mixture.and(other.mixture), ..self }
+    }
+
     /// Converts to an estimate, with the errors of another mixture, `off`; `data` are those of any
     /// alternative.
     pub fn estimate(&self, data: &FacetData, off: &Mixture<usize, Second>, trace: Trace) -> Estimate {
@@ -90,7 +102,9 @@ impl<'a> Searched<'a> {
         });
         // weights of a mean may add up to slightly more than 1 by rounding
         let reflectance = found.values[..bands].iter().map(|r| r.min(1.0)).collect();
-        let left = (found.best.rms, data.unexplained(&found.best.at.residuals));
+        let Start { hypothesis, gaussian, w, .. } = &found.best.start;
+        let facets = Facets { data: self.alternatives.get(*hypothesis), gaussian };
+        let left = (found.best.rms, data.unexplained(&facets.evaluate(w).residuals));
         Estimate {
             fitted: of_exposure.into_iter().chain(of_unknowns).collect(),
             spread: off.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::common::Workdir;
+use crate::real_sheets::numbers;
 
 const CAMERAS: &str = include_str!("../../share/cameras.txt");
 
@@ -293,4 +294,45 @@ fn channels_scaled_one_by_one_are_a_doubt() {
         text.contains("they have lost their ratios")
     };
     assert!(says("scaled.csv") && !says("camera.csv"), "{}", run.stderr);
+}
+
+/// The curves of another laboratory, told for computed facets: the spectra that the stated ones ask for are
+/// improbable, and errors of sensitivities are allowed for.
+#[test]
+fn curves_of_another_laboratory_are_allowed_for() {
+    let both = ["canon-5d-mark-ii", "canon-eos-5d-mark-ii"];
+    let mut found = Vec::new();
+    for (seen_by, told) in [(both[0], both[1]), (both[1], both[0]), (both[0], both[0])] {
+        let run = Workdir::new().sh(&format!(
+            "vkernel --angle-deg 45 -o scene.json
+             vforward scene.json --reflectance cc24 --camera {seen_by} --noise-sd 1e-3 \
+                 | tail -n +2 > samples.ndjson
+             vforward scene.json --reflectance 0.5 --camera {told} | head -n 1 | cat - samples.ndjson \
+                 | vestimate"
+        ));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let records: Vec<Value> =
+            run.stdout.lines().skip(1).map(|line| serde_json::from_str(line).unwrap()).collect();
+        let (mut rmse, mut within) = (0.0, 0.0);
+        for record in &records {
+            let [truth, found, sd] = [
+                &record["truth"]["reflectance"],
+                &record["estimate"]["reflectance"],
+                &record["estimate"]["reflectance_sd"],
+            ]
+            .map(numbers);
+            let off: Vec<f64> =
+                truth.iter().zip(&found).map(|(truth, found)| (truth - found).abs()).collect();
+            let bands = off.len() as f64;
+            rmse += (off.iter().map(|off| off * off).sum::<f64>() / bands).sqrt() / records.len() as f64;
+            let held = off.iter().zip(&sd).filter(|(off, sd)| **off < 2.0 * **sd).count();
+            within += held as f64 / bands / records.len() as f64;
+        }
+        println!("seen by {seen_by}, told {told}: RMSE {rmse:.4}, within two sd {within:.3}");
+        found.push([rmse, within]);
+    }
+    let [one, other, right] = found[..] else { panic!("{found:?}") };
+    let [rmse, within] = [0, 1].map(|k| 0.5 * (one[k] + other[k]));
+    assert!(rmse < 0.03 && within > 0.88, "{found:?}");
+    assert!(right[0] < 0.0175 && right[1] > 0.9, "{found:?}");
 }

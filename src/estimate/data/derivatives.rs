@@ -15,7 +15,7 @@ use crate::solve::posterior::Evaluated;
 pub struct Predicted {
     /// The exposure used.
     pub exposure: f64,
-    amounts: Amounts,
+    pub(super) amounts: Amounts,
     /// The model of each source at exposure 1 and amount 1.
     parts: DMatrix<f64>,
 }

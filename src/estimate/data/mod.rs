@@ -39,6 +39,8 @@ pub struct FacetData<'a> {
     /// The brightest facet value in units of its noise.
     pub(super) peak: f64,
     sums: SumRule,
+    /// Logarithm of the determinant of what makes errors of these data independent.
+    pub(super) ln_whitening: f64,
     /// Possible emission of the sheet; `None` if it is not considered.
     emission: Option<Emission>,
     /// True if the sheet may fluoresce at all.
@@ -95,6 +97,7 @@ impl<'a> FacetData<'a> {
             count: usable.len() * channels,
             peak: all.iter().map(|one| one.peak).fold(0.0, f64::max),
             sums,
+            ln_whitening: 0.0,
             emission: None,
             may_fluoresce: true,
         })
@@ -162,6 +165,25 @@ impl<'a> FacetData<'a> {
         let (scene, channels) = (self.scene.in_light(camera), self.channels.in_light(camera));
         let (values, sums, emission) = (self.values.clone(), self.sums.clone(), self.emission.clone());
         Self { scene: Cow::Owned(scene), channels, values, sums, emission, ..*self }
+    }
+
+    /// The same data if their noise is that many times as large, and errors of the camera's response, as they
+    /// are at this point, come on top; `None` if there are none, or the point is not finite.
+    #[must_use]
+    pub fn with_camera_errors(&self, noise: f64, (reflectance, unknowns): (&[f64], &[f64])) -> Option<Self> {
+        let errors = self.scene.camera_errors();
+        if errors.is_empty() {
+            return None;
+        }
+        let Predicted { exposure, amounts, .. } = self.residuals(reflectance, unknowns).ingredients;
+        let terms = self.scene.facets().terms_of(reflectance);
+        let amounts = exposure * amounts.values();
+        let (channels, values, ln_whitening) =
+            self.channels.whitened(&self.values, (&terms, &amounts), (noise, errors))?;
+        let peak = self.peak / noise;
+        let (scene, sums, emission) = (self.scene.clone(), self.sums.clone(), self.emission.clone());
+        let outside = self.outside / (noise * noise);
+        Some(Self { scene, channels, values, ln_whitening, outside, peak, sums, emission, ..*self })
     }
 
     /// The same data with this prior, if any, on the logarithm of an exposure that was entirely unknown.

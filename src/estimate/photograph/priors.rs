@@ -33,9 +33,9 @@ macro_rules! priors {
 }
 
 priors! {
-    /// Standard deviation of a measured angle, degrees, as in `train`: a protractor, and a sheet that springs
-    /// back. A stated standard deviation takes precedence.
-    angle_sd_deg: 0.9,
+    /// Standard deviation of a measured angle, degrees: a protractor, and a sheet that springs back. A stated
+    /// standard deviation takes precedence.
+    angle_sd_deg: 1.2,
     /// Standard deviation of the tilt of a sheet that was turned to the sun with care, degrees.
     tilt_sd_deg: 2.0,
     /// Of the logarithm of a stated exposure.

@@ -50,6 +50,9 @@ pub struct SceneModel {
     /// Possible emissions of the sheet in its light, the first of which is none; empty if emission is not
     /// considered.
     emissions: Arc<[Emission]>,
+    /// Possible errors of the camera's response, each of one standard deviation and of a channel: share of it
+    /// in every waveband.
+    camera_errors: Arc<[(usize, DVector<f64>)]>,
     /// How far reflectances can move its facets if all are known equally well, computed on first use.
     reach: OnceLock<Arc<Reach>>,
 }
@@ -65,13 +68,33 @@ impl SceneModel {
     /// A scene with unknowns: `factors` has a row per source of `facets`, with one factor per unknown.
     #[must_use]
     pub fn new(facets: FacetModel, unknowns: Vec<Expected>, factors: Vec<Vec<Factor>>) -> Self {
-        Self { facets, unknowns, factors, emissions: Arc::default(), reach: OnceLock::new() }
+        Self {
+            facets,
+            unknowns,
+            factors,
+            emissions: Arc::default(),
+            camera_errors: Arc::default(),
+            reach: OnceLock::new(),
+        }
     }
 
     /// The same scene with a sheet, backed so, that may emit light itself under light of this relative power.
     #[must_use]
     pub fn under(self, wavelengths_nm: &[f64], power: &[f64], backing: Backing) -> Self {
         Self { emissions: Emission::all(wavelengths_nm, power, backing).into(), ..self }
+    }
+
+    /// The same scene seen by a camera with these possible errors, each of one standard deviation and of a
+    /// channel: share of its response in every waveband.
+    #[must_use]
+    pub fn seen_with(self, errors: Vec<(usize, DVector<f64>)>) -> Self {
+        Self { camera_errors: errors.into(), ..self }
+    }
+
+    /// Possible errors of the camera's response, as given to [`Self::seen_with`].
+    #[must_use]
+    pub fn camera_errors(&self) -> &[(usize, DVector<f64>)] {
+        &self.camera_errors
     }
 
     /// Possible emissions of the sheet, the first of which is none; empty if emission is not considered.
@@ -103,8 +126,9 @@ impl SceneModel {
     /// The same scene with another light in place of that of every source, given the camera's response to it.
     #[must_use]
     pub fn in_light(&self, camera: &CameraResponse) -> Self {
-        let Self { facets, unknowns, factors, .. } = self;
-        Self::new(facets.in_light(camera), unknowns.clone(), factors.clone())
+        let Self { facets, unknowns, factors, camera_errors, .. } = self;
+        let scene = Self::new(facets.in_light(camera), unknowns.clone(), factors.clone());
+        Self { camera_errors: camera_errors.clone(), ..scene }
     }
 
     /// The same scene with one unknown fixed at this value.
