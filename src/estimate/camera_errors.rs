@@ -52,7 +52,7 @@ mod tests {
     use crate::estimate::Exposure;
     use crate::estimate::measured::Measured;
     use crate::estimate::noise::deviations;
-    use crate::estimate::photograph::eye::errors;
+    use crate::estimate::photograph::eye::{errors, shares_of};
     use crate::estimate::unknowns::SceneModel;
     use crate::forward::{FacetModel, FacetValues, Lighting};
     use crate::geometry::{FacetGrid, Fold, Light};
@@ -73,11 +73,8 @@ mod tests {
             FacetModel::one_sheet(&response, &Lighting { light, sun: eye.clone(), sky: eye })
         };
         let all = errors(&curves, grid.wavelengths_nm(), &vec![1.0; grid.len()], &Priors::USUAL);
-        let share = |(channel, error): &(usize, DVector<f64>)| {
-            let curve = DVector::from_column_slice(&curves[*channel]);
-            (*channel, error.zip_map(&curve, |error, value| if value > 0.0 { error / value } else { 0.0 }))
-        };
-        let scene = SceneModel::known(seen_by(&curves)).seen_with(all.iter().map(share).collect());
+        let scene = SceneModel::known(seen_by(&curves));
+        let scene = scene.seen_with(shares_of(&curves, grid.wavelengths_nm(), &Priors::USUAL));
         let red: Vec<f64> = (0..grid.len()).map(|band| if band < 18 { 0.1 } else { 0.7 }).collect();
         // blue, in which white is not 1
         for (channel, error) in all.iter().filter(|(channel, _)| *channel == 2) {

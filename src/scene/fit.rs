@@ -9,7 +9,6 @@ use super::photograph::eye;
 use super::{FoldSetting, Setting};
 use crate::error::{Error, Result};
 use crate::estimate::photograph::conditions::Daylight;
-use crate::estimate::photograph::eye::errors;
 use crate::estimate::photograph::priors::Priors;
 use crate::estimate::unknowns::{EXPOSURE, FoldInLight, SceneModel, Unknown};
 use crate::stream::{Optics, needs_fold};
@@ -38,24 +37,13 @@ impl Setting<'_> {
             Self::Fold(fold) => (Cow::Borrowed(fold.optics()?), fold.backing),
             Self::Surface(surface) => (Cow::Owned(surface.scene.optics()?), backing(surface.scene)?),
         };
-        let model = model.seen_with(camera_errors(&optics));
+        let model = model.seen_with(eye::relative_errors(&optics, &Priors::USUAL));
         // in several lights a sheet emits different amounts
         Ok(match optics.illuminants.as_slice() {
             [one] => model.under(optics.grid.wavelengths_nm(), &one.power, backing),
             _ => model,
         })
     }
-}
-
-/// Possible errors of the camera's sensitivities, each a share of the sensitivity.
-fn camera_errors(Optics { grid, camera, .. }: &Optics) -> Vec<(usize, DVector<f64>)> {
-    let ones = vec![1.0; grid.wavelengths_nm().len()];
-    let all = errors(&camera.sensitivities, grid.wavelengths_nm(), &ones, &Priors::USUAL);
-    let share = |(channel, error): (usize, DVector<f64>)| {
-        let curve = DVector::from_column_slice(&camera.sensitivities[channel]);
-        (channel, error.zip_map(&curve, |error, value| if value > 0.0 { error / value } else { 0.0 }))
-    };
-    all.into_iter().map(share).collect()
 }
 
 impl FoldSetting {

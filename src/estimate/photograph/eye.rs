@@ -82,3 +82,19 @@ pub fn errors(
     }
     all
 }
+
+/// The same errors as shares of the sensitivities.
+#[must_use]
+pub fn shares_of(
+    sensitivities: &[Vec<f64>],
+    wavelengths_nm: &[f64],
+    priors: &Priors,
+) -> Vec<(usize, DVector<f64>)> {
+    let share = |(channel, mut error): (usize, DVector<f64>)| {
+        let seen = error.iter_mut().zip(&sensitivities[channel]);
+        seen.for_each(|(error, value)| *error = if *value > 0.0 { *error / value } else { 0.0 });
+        (channel, error)
+    };
+    let of_unit_width = vec![1.0; wavelengths_nm.len()];
+    errors(sensitivities, wavelengths_nm, &of_unit_width, priors).into_iter().map(share).collect()
+}

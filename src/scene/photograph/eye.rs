@@ -4,10 +4,22 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::camera::Predictor;
 use crate::error::Result;
-use crate::estimate::photograph::eye::{Eye, errors};
+use crate::estimate::photograph::eye::{Eye, errors, shares_of};
 use crate::estimate::photograph::priors::Priors;
 use crate::spectrum::{Outside, WavelengthGrid, daylight_vectors};
-use crate::stream::Optics;
+use crate::stream::{CameraRecord, Optics};
+
+/// Possible errors of the camera's sensitivities, each a share of them.
+pub fn relative_errors(Optics { grid, camera, .. }: &Optics, priors: &Priors) -> Vec<(usize, DVector<f64>)> {
+    let priors = with_errors_of(camera, priors);
+    shares_of(&camera.sensitivities, grid.wavelengths_nm(), &priors)
+}
+
+/// The priors on a camera: one that stands in for another has the measured errors of such cameras.
+fn with_errors_of(camera: &CameraRecord, priors: &Priors) -> Priors {
+    let measured = camera.stands_in.as_ref().map_or(0.0, |one| one.sensitivity_error);
+    Priors { sensitivity_sd: measured.max(priors.sensitivity_sd), ..*priors }
+}
 
 /// The camera of a scene.
 pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, priors: &Priors) -> Result<Eye> {
@@ -21,16 +33,11 @@ pub fn of(Optics { grid, camera, illuminants, sky }: &Optics, priors: &Priors) -
     let sky = sky.as_ref().map_or_else(|| sun.clone(), |sky| DVector::from_column_slice(&sky.power));
     let daylight = vectors(grid)?;
     let white = sensitivities.tr_mul(&sun);
-    // a camera that stands in for another has the measured errors of such cameras
-    let sensitivity_sd = camera
-        .stands_in
-        .as_ref()
-        .map_or(priors.sensitivity_sd, |one| one.sensitivity_error.max(priors.sensitivity_sd));
     let is_predicted = camera.stands_in.as_ref().is_some_and(|one| one.is_predicted);
     let predicted =
         if is_predicted { of_predicted(&camera.sensitivities, grid, &widths)? } else { Vec::new() };
     let errors = if predicted.is_empty() {
-        errors(&camera.sensitivities, &wavelengths_nm, &widths, &Priors { sensitivity_sd, ..*priors })
+        errors(&camera.sensitivities, &wavelengths_nm, &widths, &with_errors_of(camera, priors))
     } else {
         predicted
     };
