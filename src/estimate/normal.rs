@@ -19,6 +19,18 @@ impl Normal {
     }
 }
 
+/// Nodes and weights of five points for a standard normal number.
+///
+/// # Source
+/// M. Abramowitz, I. Stegun, *Handbook of Mathematical Functions* (1964), table 25.10.
+const GAUSS_HERMITE: [(f64, f64); 5] = [
+    (-2.856_970_013_872_806, 0.011_257_411_327_720_69),
+    (-1.355_626_179_974_266, 0.222_075_922_005_612_65),
+    (0.0, 0.533_333_333_333_333_3),
+    (1.355_626_179_974_266, 0.222_075_922_005_612_65),
+    (2.856_970_013_872_806, 0.011_257_411_327_720_69),
+];
+
 /// Prior of an unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expectation {
@@ -66,6 +78,23 @@ impl Expectation {
         let [number, by_w, _] = self.number(w);
         let (value, slope) = scale.value(number);
         (self.unit * value, self.unit * slope * by_w)
+    }
+
+    /// Root mean square deviation from the value at `w` if `w` is uncertain by `sd`.
+    ///
+    /// # Example
+    /// ```
+    /// use vfold::estimate::unknowns::{Expectation, Normal, Scale};
+    /// let one = Expectation::from(Normal { mean: 0.0, sd: 2.0 });
+    /// assert!((one.spread(Scale::Linear, 0.3, 0.5) - 1.0).abs() < 1e-12);
+    /// let (_, slope) = one.value(Scale::Positive, 0.0);
+    /// assert!(one.spread(Scale::Positive, 0.0, 1.0) > 1.2 * slope); // it is bent
+    /// ```
+    #[must_use]
+    pub fn spread(&self, scale: Scale, w: f64, sd: f64) -> f64 {
+        let value = |node: f64| self.value(scale, w + sd * node).0;
+        let square = |(node, weight): (f64, f64)| weight * (value(node) - value(0.0)).powi(2);
+        GAUSS_HERMITE.into_iter().map(square).sum::<f64>().sqrt()
     }
 
     /// The standard normal number for a value.

@@ -37,10 +37,11 @@ impl Setting<'_> {
             Self::Fold(fold) => (Cow::Borrowed(fold.optics()?), fold.backing),
             Self::Surface(surface) => (Cow::Owned(surface.scene.optics()?), backing(surface.scene)?),
         };
-        let model = model.seen_with(eye::relative_errors(&optics, &Priors::USUAL));
-        // in several lights a sheet emits different amounts
+        // in several lights a sheet emits different amounts, and the camera's errors are shared
         Ok(match optics.illuminants.as_slice() {
-            [one] => model.under(optics.grid.wavelengths_nm(), &one.power, backing),
+            [one] => model
+                .under(optics.grid.wavelengths_nm(), &one.power, backing)
+                .seen_with(eye::relative_errors(&optics, &Priors::USUAL)),
             _ => model,
         })
     }

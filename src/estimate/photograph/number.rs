@@ -5,18 +5,6 @@ use super::day::Day;
 use super::hypotheses::{Hypothesis, Mistake};
 use crate::estimate::unknowns::{ANGLE, EVEN_SKY, Expectation, Known, SKY_COLOUR, TABLE, Unknown};
 
-/// Nodes and weights of five points for a standard normal number.
-///
-/// # Source
-/// M. Abramowitz, I. Stegun, *Handbook of Mathematical Functions* (1964), table 25.10.
-const GAUSS_HERMITE: [(f64, f64); 5] = [
-    (-2.856_970_013_872_806, 0.011_257_411_327_720_69),
-    (-1.355_626_179_974_266, 0.222_075_922_005_612_65),
-    (0.0, 0.533_333_333_333_333_3),
-    (1.355_626_179_974_266, 0.222_075_922_005_612_65),
-    (2.856_970_013_872_806, 0.011_257_411_327_720_69),
-];
-
 /// An unknown with its prior in a photograph of some imperfection.
 #[derive(Clone, Copy)]
 pub struct Number {
@@ -62,9 +50,7 @@ impl Number {
     /// `sd`.
     #[must_use]
     pub fn spread(&self, w: f64, sd: f64) -> f64 {
-        let (value, _) = self.at(w);
-        let square = |(node, weight): (f64, f64)| weight * (self.at(w + sd * node).0 - value).powi(2);
-        GAUSS_HERMITE.into_iter().map(square).sum::<f64>().sqrt()
+        self.prior.spread(self.unknown.scale, w, sd)
     }
 
     /// The standard normal number for a value.
