@@ -1,7 +1,7 @@
 //! Facets seen by another camera of the stated model, the sensitivities of which are slightly different.
 //!
-//! Computed facets are taken to be those of the stated camera. If that asks for an improbable spectrum, errors
-//! of its sensitivities, which photographs always have, are as probable as statements are wrong.
+//! Computed facets are taken to be those of the stated camera. If that asks for an improbable spectrum,
+//! errors of its sensitivities, which photographs always have, are as probable as statements are wrong.
 
 use nalgebra::DVector;
 

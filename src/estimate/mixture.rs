@@ -129,7 +129,8 @@ impl<H: Copy, S> Mixture<H, S> {
         Some(Self { values: values.data.into(), spread, shares, best: modes.swap_remove(0), ln_evidence })
     }
 
-    /// The mean of two mixtures of the same values, weighted by evidence, with errors widened by their distance.
+    /// The mean of two mixtures of the same values, weighted by evidence, with errors widened by their
+    /// distance.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         let ln_evidence = ln_sum(&[self.ln_evidence, other.ln_evidence]);

@@ -88,7 +88,7 @@ impl Expectation {
     /// let one = Expectation::from(Normal { mean: 0.0, sd: 2.0 });
     /// assert!((one.spread(Scale::Linear, 0.3, 0.5) - 1.0).abs() < 1e-12);
     /// let (_, slope) = one.value(Scale::Positive, 0.0);
-    /// assert!(one.spread(Scale::Positive, 0.0, 1.0) > 1.2 * slope); // it is bent
+    /// assert!(one.spread(Scale::Positive, 0.0, 1.0) > 1.1 * slope); // it is bent
     /// ```
     #[must_use]
     pub fn spread(&self, scale: Scale, w: f64, sd: f64) -> f64 {
