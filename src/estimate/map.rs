@@ -109,8 +109,8 @@ impl<'a> Sheet<'_, 'a> {
         if is_usual || self.lights.len() > 1 {
             return Some((found, rival));
         }
-        let off = seen_by_another(found.plain(), plain, self.prior, trace);
-        Some((found.and(off), rival))
+        let other = seen_by_another(found.plain(), plain, self.prior, trace);
+        Some((found.or_seen_by_another(other), rival))
     }
 
     /// What was found, or what is found with emission, or without it, if that explains the facets better.

@@ -8,6 +8,7 @@ use super::fluorescence::Fluorescence;
 use super::fluorescence_search;
 use super::linear::Start;
 use super::mixture::Mixture;
+use super::photograph::Finding;
 use super::prior::Prior;
 use super::search::{Search, Sorted};
 use super::unknowns::{EXPOSURE, SUPPORTED};
@@ -28,6 +29,8 @@ pub struct Searched<'a> {
     pub lights: Vec<usize>,
     /// As given, and with the same indices.
     alternatives: Alternatives<'a, 'a>,
+    /// Probability that another camera of the stated model saw the facets.
+    seen_by_another: f64,
 }
 
 /// Facets in a light, of a sheet with or without emission, and their mode under all spectra.
@@ -61,7 +64,7 @@ impl<'a> Searched<'a> {
         let mut search = Search::new(&alternatives, prior);
         let mixture = search.mixture(&sorted)?;
         trace.append(&mut search.trace);
-        Some(Self { mixture, lights, alternatives })
+        Some(Self { mixture, lights, alternatives, seen_by_another: 0.0 })
     }
 
     /// The facets of a sheet without emission.
@@ -69,10 +72,13 @@ impl<'a> Searched<'a> {
         self.alternatives.get(0)
     }
 
-    /// The mean of these modes and those of `other`, if any, in which no sheet emits, weighted by evidence.
-    pub fn and(self, other: Option<Self>) -> Self {
-        let Some(other) = other else { return self };
-        Self { mixture: self.mixture.and(other.mixture), ..self }
+    /// The mean of these modes and those of the facets of a sheet without emission if another camera saw them,
+    /// unless that is `None`, weighted by evidence.
+    pub fn or_seen_by_another(self, other: Option<Self>) -> Self {
+        let Some(Self { mixture: other, .. }) = other else { return self };
+        let ln_evidence = other.ln_evidence;
+        let mixture = self.mixture.and(other);
+        Self { seen_by_another: (ln_evidence - mixture.ln_evidence).exp(), mixture, ..self }
     }
 
     /// Converts to an estimate, with the errors of another mixture, `off`; `data` are those of any
@@ -108,6 +114,7 @@ impl<'a> Searched<'a> {
         Estimate {
             fitted: of_exposure.into_iter().chain(of_unknowns).collect(),
             spread: off.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
+            findings: (self.seen_by_another > 0.5).then(Finding::of_another_camera).into_iter().collect(),
             fluorescence: self.fluorescence(last + 1),
             ..Estimate::searched(reflectance, exposure, left, (trace, found.best.termination))
         }

@@ -156,8 +156,7 @@ impl Shape {
     ///
     /// # Example
     /// ```
-    /// use vfold::sheet::{Family, Shape};
-    /// assert_eq!(Shape::from(Family { sheen: 0.0, ..Family::default() }).weights(0.3), [0.3, 0.0]);
+    /// assert_eq!(vfold::sheet::Shape::lambertian().weights(0.3), [0.3, 0.0]);
     /// ```
     #[must_use]
     pub fn weights(&self, albedo: f64) -> [f64; 2] {

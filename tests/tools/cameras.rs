@@ -313,6 +313,8 @@ fn curves_of_another_laboratory_are_allowed_for() {
         assert_eq!(run.status, 0, "{}", run.stderr);
         let records: Vec<Value> =
             run.stdout.lines().skip(1).map(|line| serde_json::from_str(line).unwrap()).collect();
+        let is_said = run.stderr.contains("sensitivities are probably not quite those stated");
+        assert_eq!(is_said, seen_by != told, "{}", run.stderr);
         let (mut rmse, mut within) = (0.0, 0.0);
         for record in &records {
             let [truth, found, sd] = [

@@ -6,7 +6,7 @@ use crate::estimate::unknowns::Unknown;
 /// without it reveals more.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// The unknown that deviates; `None` for corners and the kind of day.
+    /// The unknown that deviates; `None` for corners, the kind of day and the camera.
     pub unknown: Option<&'static Unknown>,
     /// What is wrong.
     pub what: String,
@@ -15,4 +15,17 @@ pub struct Finding {
     /// True if it exceeds the errors of users and the differences of sheets: then usually something else is
     /// wrong.
     pub is_unusual: bool,
+}
+
+impl Finding {
+    /// Another camera of the stated model probably saw the facets.
+    #[must_use]
+    pub fn of_another_camera() -> Self {
+        Self {
+            unknown: None,
+            what: "the camera's sensitivities are probably not quite those stated".to_owned(),
+            remedy: "derive them from a photograph of a colour chart (vextract --save-camera)",
+            is_unusual: false,
+        }
+    }
 }
