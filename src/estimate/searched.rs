@@ -72,8 +72,8 @@ impl<'a> Searched<'a> {
         self.alternatives.get(0)
     }
 
-    /// The mean of these modes and those of the facets of a sheet without emission if another camera saw them,
-    /// unless that is `None`, weighted by evidence.
+    /// The mean of these modes and those of the facets of a sheet without emission if another camera saw
+    /// them, unless that is `None`, weighted by evidence.
     pub fn or_seen_by_another(self, other: Option<Self>) -> Self {
         let Some(Self { mixture: other, .. }) = other else { return self };
         let ln_evidence = other.ln_evidence;
