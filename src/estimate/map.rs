@@ -105,8 +105,12 @@ impl<'a> Sheet<'_, 'a> {
         let (surprise, plain) = (solution.surprise(self.tempering), (solution.w.clone(), *ln_evidence));
         let found = Searched::among(all, self.prior, trace)?;
         let found = self.explained(found, (may_emit, emits), trace)?;
-        let is_usual = surprise.max(found.mixture.best.surprise) < SURPRISE;
-        if is_usual || self.lights.len() > 1 {
+        let best = &found.mixture.best;
+        let is_usual = surprise.max(best.surprise) < SURPRISE;
+        // more precise facets are computed: some spectrum, however improbable, explains those of the camera
+        let precise = Search::new(self.data, self.prior).fine_tempering();
+        let is_explained = precise > 1.0 && best.rms < precise;
+        if is_usual || is_explained || self.lights.len() > 1 {
             return Some((found, rival));
         }
         let other = seen_by_another(found.plain(), plain, self.prior, trace);

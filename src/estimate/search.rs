@@ -142,6 +142,12 @@ impl<'a, F: Family> Search<'a, F> {
         self.coarse
     }
 
+    /// Factor by which the noise of precise facets is tempered while classes are distinguished; 1 if they are
+    /// not precise.
+    pub fn fine_tempering(&self) -> f64 {
+        self.fine
+    }
+
     /// The mean of all modes of most evidence under the `sorted` hypotheses.
     pub fn mixture(
         &mut self,
