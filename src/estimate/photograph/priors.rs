@@ -111,7 +111,7 @@ priors! {
     /// See `elevation_deg`.
     elevation_sd_deg: 14.0,
     /// Reflectance of the ground: a table, grass or sand has 0.1 to 0.4.
-    ground: 0.115,
+    ground: 0.105,
     /// Rise of the ground's reflectance to 700 nm: earth and wood are brown, and reflect half as much again
     /// in the red, stone and cloth may be grey.
     ground_redness: 0.4,
@@ -126,7 +126,7 @@ priors! {
     /// Share of light lost by the lens in the corners: 0 to 30 %.
     vignetting: 0.12,
     /// Share of light spread over the picture by the lens: 0 to 2 %.
-    veiling_glare: 0.006,
+    veiling_glare: 0.0045,
     /// Specular weight: matte papers and paints have up to that of a bare surface.
     specular_weight: 0.16,
     /// Logarithm of the specular roughness: matte surfaces have 0.3 to 0.6.
