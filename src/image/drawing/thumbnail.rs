@@ -1,7 +1,6 @@
 //! Small copies of pictures, for reports.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Seek};
+use std::io::{self, Seek};
 use std::path::Path;
 
 use image::codecs::jpeg::JpegEncoder;
@@ -9,6 +8,7 @@ use image::imageops::FilterType;
 use image::{DynamicImage, ImageReader};
 
 use super::preview::CAPTION_KEYWORD;
+use crate::image::reading::PictureFile;
 use crate::{Error, Result};
 
 /// Quality of the JPEG, out of 100: thin lines stay clean.
@@ -48,7 +48,7 @@ pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
     if !path.metadata().map_err(no_file)?.is_file() {
         return Err(no_file(io::Error::other("not a regular file")));
     }
-    let mut file = BufReader::new(File::open(path).map_err(no_file)?);
+    let mut file = PictureFile::open(path)?;
     let caption = caption(&mut file);
     file.rewind().map_err(no_file)?;
     let reader = ImageReader::new(&mut file).with_guessed_format().map_err(no_file)?;
@@ -65,7 +65,7 @@ pub fn thumbnail(path: &Path, longest_px: u32) -> Result<Thumbnail> {
 }
 
 /// The caption in the text chunks of a PNG; none in other files.
-fn caption(file: impl BufRead + Seek) -> Option<String> {
+fn caption(file: &mut PictureFile) -> Option<String> {
     let png = png::Decoder::new(file).read_info().ok()?;
     let text = png.info().utf8_text.iter().find(|text| text.keyword == CAPTION_KEYWORD)?;
     text.get_text().ok()

@@ -183,7 +183,7 @@ fn decode_whole(
     drop(decoder);
     file.rewind().map_err(|source| Error::file(path.display(), source))?;
     let in_place = if format == ImageFormat::OpenExr {
-        openexr_pixels::decode(&mut *file, dimensions, has_alpha)
+        openexr_pixels::decode(file, dimensions, has_alpha)
     } else {
         None
     };

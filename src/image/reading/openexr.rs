@@ -1,12 +1,10 @@
 //! The header of an OpenEXR file: its colour space, or why it contains no readable colours.
 
-use std::io::{Read, Seek};
-
 use exr::compression::Compression;
-use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, SampleType};
 use exr::meta::header::Header;
 
+use super::picture_file::PictureFile;
 use super::pixel_shape::{self, RESAMPLE};
 use super::primaries::are_srgb;
 use super::stated::{OTHER_COLOURS, OTHER_CURVE, Statement};
@@ -21,16 +19,17 @@ pub(super) enum Kind {
 }
 
 /// The contents of a file with a readable header.
-pub(super) fn kind(file: impl Read + Seek) -> Option<Kind> {
-    let MetaData { headers, .. } = MetaData::read_from_buffered(file, false).ok()?;
+pub(super) fn kind(file: &mut PictureFile) -> Option<Kind> {
+    let file = exr::block::read(file, false).ok()?;
+    let headers = file.headers();
     let in_colour: Vec<_> = headers.iter().filter(|header| is_in_colour(header)).collect();
     let (is, remedy) = match in_colour[..] {
-        [] => other(&headers),
+        [] => other(headers),
         [header] => match not_read(header) {
             Some(why) => why,
             None => return Some(Kind::Colours(statements(header))),
         },
-        _ => (several(&headers), "save the intended part alone, with `oiiotool --subimage N`"),
+        _ => (several(headers), "save the intended part alone, with `oiiotool --subimage N`"),
     };
     Some(Kind::Other { is, remedy })
 }
