@@ -36,11 +36,10 @@ fn samples(file: &mut PictureFile, (width, height): (u32, u32), count: usize) ->
     let put = move |samples: &mut Vec<f32>, at: Vec2<usize>, (r, g, b, a): (f32, f32, f32, f32)| {
         let column = usize::try_from(at.to_i32().x() - left).ok().filter(|column| *column < width);
         let row = usize::try_from(at.to_i32().y() - top).ok().filter(|row| *row < height);
-        if let (Some(column), Some(row)) = (column, row) {
-            if let [red, green, blue, alpha @ ..] = &mut samples[(row * width + column) * count..][..count] {
-                (*red, *green, *blue) = (r, g, b);
-                alpha.iter_mut().for_each(|alpha| *alpha = a);
-            }
+        let (Some(column), Some(row)) = (column, row) else { return };
+        if let [red, green, blue, alpha @ ..] = &mut samples[(row * width + column) * count..][..count] {
+            (*red, *green, *blue) = (r, g, b);
+            alpha.iter_mut().for_each(|alpha| *alpha = a);
         }
     };
     let layers = read().no_deep_data().largest_resolution_level();
