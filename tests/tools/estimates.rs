@@ -57,6 +57,19 @@ fn no_spectrum_takes_many_times_the_steps_of_most() {
     }
 }
 
+/// Without noise some spectrum explains the facets: however improbable, the camera is the stated one.
+#[test]
+fn a_steep_edge_is_no_error_of_the_camera() {
+    let edges = r#"awk 'BEGIN {
+        print "nm,edge,steeper"
+        for (nm = 400; nm <= 700; nm += 5)
+            printf "%d,%.6f,%.6f\n", nm, 0.03 + 0.714 / (1 + exp((nm - 656.6) / 10.8)),
+                0.03 + 0.474 / (1 + exp((nm - 632.6) / 4))
+    }' > edges.csv"#;
+    let scores = scores(&format!("{edges}\nvkernel | vforward --reflectance edges.csv | vestimate | vscore"));
+    assert!(scores.len() == 2 && scores.iter().all(|(_, rmse, _)| *rmse < 0.03), "{scores:?}");
+}
+
 /// Half a stop more light on a bright sheet: the gradient tells reflectance from exposure.
 #[test]
 fn an_unknown_exposure_is_found() {
