@@ -37,6 +37,7 @@ impl Default for Sums {
 
 impl Sums {
     /// With one more pixel.
+    #[inline]
     pub fn with(mut self, distance: f64, light: &Vector3<f64>) -> Self {
         let mut power = 1.0;
         for (n, sum) in self.powers.iter_mut().enumerate() {
@@ -51,6 +52,7 @@ impl Sums {
     }
 
     /// Without some of the pixels.
+    #[inline]
     pub fn without(mut self, others: &Self) -> Self {
         self.powers.iter_mut().zip(others.powers).for_each(|(sum, other)| *sum -= other);
         self.light.iter_mut().zip(others.light).for_each(|(sum, other)| *sum -= other);
@@ -93,6 +95,7 @@ pub(super) struct Fit {
 
 impl Fit {
     /// A cubic polynomial of the distance.
+    #[inline]
     pub fn smooth(sums: &Sums) -> Self {
         Self {
             normal: Matrix4::from_fn(|i, j| sums.powers[i + j]),
@@ -107,6 +110,7 @@ impl Fit {
     ///   the fraction beyond it becomes another polynomial, and up to where they are wholly beyond; `all`:
     ///   over all pixels.
     /// - `shares`: these fractions.
+    #[inline]
     pub fn of_planes(ends: [&Sums; 4], shares: [Share; 3], all: &Sums) -> Self {
         let far = |n: usize| (all.powers[n] - ends[3].powers[n], all.light[n] - ends[3].light[n]);
         let (mut near_near, mut near_far) = ([0, 1, 2].map(|n| ends[0].powers[n]), [0.0; 3]);
@@ -138,6 +142,7 @@ impl Fit {
     }
 
     /// How much of the sum of squares it explains in each channel; `None` if it is not unique.
+    #[inline]
     pub fn explained(&self) -> Option<Vector3<f64>> {
         let whitened = self.normal.cholesky()?.l_dirty().solve_lower_triangular(&self.right)?;
         Some(whitened.component_mul(&whitened).row_sum_tr())

@@ -62,7 +62,9 @@ impl Piece {
         let brightest = pixels.iter().fold(Vector3::zeros(), |most, (_, light)| light.abs().sup(&most));
         let exact = brightest.map(|light: f64| pixels.len() as f64 * (EXACT * light).powi(2));
         pixels.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let (mut distances, mut sums) = (Vec::with_capacity(pixels.len()), vec![Sums::default()]);
+        let count = pixels.len();
+        let (mut distances, mut sums) = (Vec::with_capacity(count), Vec::with_capacity(count + 1));
+        sums.push(Sums::default());
         for (distance_px, light) in pixels {
             let distance = distance_px / width_px;
             distances.push(distance);
@@ -194,7 +196,8 @@ impl Piece {
             let end = self.nearer_than(edge_px + from_edge).clamp(pixels.start, pixels.end);
             self.sums_of(&(pixels.start..end))
         };
-        let (ends, all) = ([-outer_px, -inner_px, inner_px, outer_px].map(up_to), self.sums_of(pixels));
+        let ends = [up_to(-outer_px), up_to(-inner_px), up_to(inner_px), up_to(outer_px)];
+        let all = self.sums_of(pixels);
         let shares = shares_beyond(wide, narrow).map(|share| shifted(share, edge));
         self.left_by(&all, &Fit::of_planes(ends.each_ref(), shares, &all))
     }

@@ -142,8 +142,8 @@ impl Contrast {
         for (row, mut contrasts) in contrasts.outer_iter_mut().enumerate() {
             layer.visit(x..x + self.block, y + row, |column, pixel| match pixel {
                 Pixel::Light(light) => {
-                    let contrast = &mut contrasts[column - x];
-                    *contrast = [0, 1, 2].map(|channel| contrast[channel] + weight * light[channel]);
+                    let sums = contrasts[column - x].iter_mut();
+                    sums.zip(light).for_each(|(sum, light)| *sum += weight * light);
                 }
                 _ => usable = false,
             });

@@ -238,6 +238,7 @@ impl Photograph {
     /// The pixel in column `x` and row `y` of the upright picture, both below its size; in a mosaic the mean
     /// of each colour over the nine pixels around it.
     #[must_use]
+    #[inline]
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
         let pixel = self.pixels.pixel(x, y);
         self.flat_field.as_ref().map_or(pixel, |flat| flat.divide(x, y, pixel))

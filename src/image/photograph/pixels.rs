@@ -34,6 +34,7 @@ impl Pixels {
 
     /// The pixel in column `x` and row `y` of the upright picture; for sites the mean of each colour over the
     /// nine around it.
+    #[inline]
     pub fn pixel(&self, x: usize, y: usize) -> Pixel {
         match self {
             Self::Interleaved(pixels) => {
