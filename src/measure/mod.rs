@@ -115,7 +115,7 @@ impl Setup<'_> {
     fn lights(&self, photograph: &Photograph, optics: &Optics) -> Result<Vec<Candidate>> {
         match (self.illuminant, light_of(&photograph.info().camera.taken)) {
             (None, LightTaken::OtherThanDaylight(_)) => {
-                Candidate::all(&candidate_lights()?, &self.wavelengths, &optics.camera.sensitivities)
+                Candidate::all(candidate_lights()?, &self.wavelengths, &optics.camera.sensitivities)
             }
             _ => Ok(Vec::new()),
         }

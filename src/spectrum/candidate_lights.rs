@@ -1,5 +1,7 @@
 //! Candidate lights for photographs whose light is not stated; the evidence chooses among them.
 
+use std::sync::OnceLock;
+
 use super::{Spectrum, illuminant};
 use crate::error::Result;
 
@@ -95,8 +97,14 @@ fn without_temperature(names: impl IntoIterator<Item = impl Into<String>>) -> Ve
 /// assert!((lights.iter().map(|light| light.share).sum::<f64>() - 1.0).abs() < 1e-9);
 /// # Ok::<(), vfold::Error>(())
 /// ```
-pub fn candidate_lights() -> Result<Vec<CandidateLight>> {
-    spaced(STEP_MIRED / FINE_STEP_MIRED, false)
+pub fn candidate_lights() -> Result<&'static [CandidateLight]> {
+    // every photograph asks for them
+    static LIGHTS: OnceLock<Vec<CandidateLight>> = OnceLock::new();
+    if let Some(lights) = LIGHTS.get() {
+        return Ok(lights);
+    }
+    let lights = spaced(STEP_MIRED / FINE_STEP_MIRED, false)?;
+    Ok(LIGHTS.get_or_init(|| lights))
 }
 
 /// The same lights, and those [between](CandidateLight::is_between) them.

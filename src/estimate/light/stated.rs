@@ -49,7 +49,7 @@ impl Others {
     pub fn lights(&self) -> &[Candidate] {
         self.lights.get_or_init(|| {
             let all =
-                candidate_lights().and_then(|all| Candidate::all(&all, &self.grid, &self.sensitivities));
+                candidate_lights().and_then(|all| Candidate::all(all, &self.grid, &self.sensitivities));
             all.unwrap_or_default()
         })
     }

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::priors::Priors;
+use crate::solve::Eigen;
 
 /// The camera's response to light of any spectrum.
 #[derive(Clone, Debug)]
@@ -52,8 +53,16 @@ impl Eye {
     }
 }
 
-/// Smooth errors of the sensitivities. A channel with fewer than ten samples that see anything belongs to a
-/// narrow filter and is assumed exact.
+/// Principal components of a channel's errors that count. The next one is a tenth of the first, and light of
+/// a sheet, which varies less over the wavelengths, hardly shows it.
+const COMPONENTS: usize = 4;
+
+/// Smooth errors of the sensitivities, independent of each other, the largest of each channel first. A channel
+/// with fewer than ten samples that see anything belongs to a narrow filter and is assumed exact.
+///
+/// # Source
+/// Principal components of errors that are alike over a range of wavelengths: Bishop, *Pattern Recognition and
+/// Machine Learning* (2006), section 12.1.4.
 #[must_use]
 pub fn errors(
     sensitivities: &[Vec<f64>],
@@ -70,17 +79,23 @@ pub fn errors(
         if curve.iter().filter(|value| **value > 1e-3 * most).count() < 10 {
             continue;
         }
-        for bump in 0..=count {
+        let bumps = DMatrix::from_fn(wavelengths_nm.len(), count + 1, |band, bump| {
             let middle = first + (last - first) * bump as f64 / count as f64;
-            let of = |band: usize| {
-                let off = (wavelengths_nm[band] - middle) / sensitivity_step_nm;
-                let envelope = (curve[band] / most).max(0.0).sqrt();
-                sensitivity_sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
-            };
-            all.push((channel, DVector::from_fn(wavelengths_nm.len(), |band, _| of(band))));
-        }
+            let off = (wavelengths_nm[band] - middle) / sensitivity_step_nm;
+            let envelope = (curve[band] / most).max(0.0).sqrt();
+            sensitivity_sd * most * envelope * (-0.5 * off * off).exp() * widths[band]
+        });
+        all.extend(principal_components(&bumps).into_iter().map(|error| (channel, error)));
     }
     all
+}
+
+/// The largest of the errors in which the columns, each with a standard normal size, are independent again.
+fn principal_components(columns: &DMatrix<f64>) -> Vec<DVector<f64>> {
+    let Eigen { values, vectors } = Eigen::of_symmetric(columns.tr_mul(columns));
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
+    order.iter().take(COMPONENTS).map(|n| columns * vectors.column(*n)).collect()
 }
 
 /// The same errors as shares of the sensitivities.

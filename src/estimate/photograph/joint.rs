@@ -95,12 +95,15 @@ impl<'a> JointModel<'a> {
     }
 
     /// Transfers the point `w` of another model of the same photographs, as far as this one has the same
-    /// numbers; the others are at their means.
+    /// numbers; the others, also those of another camera, are at their means.
     #[must_use]
     pub fn carried(&self, other: &JointModel, w: &DVector<f64>) -> DVector<f64> {
         let mut carried = DVector::zeros(self.count);
         for (member, from) in self.members.iter().zip(&other.members) {
-            for (n, place) in from.places.iter().enumerate() {
+            let [_, _, camera, emission, _] = from.model.layout();
+            let is_same_camera = member.model.parts.eye.is(&from.model.parts.eye);
+            let is_shared = |n: usize| is_same_camera || !(camera..emission).contains(&n);
+            for (n, place) in from.places.iter().enumerate().filter(|(n, _)| is_shared(*n)) {
                 if let Some(own) = member.place_like(&from.model, n) {
                     carried[own] = w[*place];
                 }

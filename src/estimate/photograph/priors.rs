@@ -35,7 +35,7 @@ macro_rules! priors {
 priors! {
     /// Standard deviation of a measured angle, degrees: a protractor, and a sheet that springs back. A stated
     /// standard deviation takes precedence.
-    angle_sd_deg: 1.2,
+    angle_sd_deg: 0.8,
     /// Standard deviation of the tilt of a sheet that was turned to the sun with care, degrees.
     tilt_sd_deg: 2.0,
     /// Of the logarithm of a stated exposure.
@@ -51,7 +51,7 @@ priors! {
     /// nominal values.
     exposure_metered_sd: 0.3,
     /// Heaviness of the tails for stated values, which now and then are blunders; 0: normal.
-    stated_tail: 0.5,
+    stated_tail: 0.75,
 
     /// Reciprocal colour temperature of direct sunlight, 1e-6/K, whatever CIE daylight was stated: 4900 K to
     /// 5900 K.
