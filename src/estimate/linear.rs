@@ -30,6 +30,9 @@ const UNSEPARATED_TRIED: usize = 24;
 const UNSEPARATED_LN_EVIDENCE_LEAST: f64 = -5.0;
 /// Number of values by which most classes are ruled out.
 const FEW_VALUES: usize = 4;
+/// Other numbers are few if wavebands are this many times as many: those of a photograph are more, and less
+/// precise.
+const FEW: usize = 2;
 /// Number of directions in logit about which data must say more than the prior of all spectra to distinguish
 /// classes.
 const TELLING_LEAST: usize = 3;
@@ -136,7 +139,7 @@ impl<H: Copy> Linear<H> {
         (0..count).for_each(|n| information[(n, n)] += 1.0);
         let of_others = cholesky(information)?;
         let ln_determinant = of_others.ln_determinant() - 2.0 * model.ln_whitening();
-        let informed = if count < by_logit.ncols() {
+        let informed = if FEW * count < by_logit.ncols() {
             Informed::of_few_others(&by_logit, &by_others, &residuals).condensed()
         } else {
             Informed::of_many_others(&by_logit, &by_others, &residuals, &of_others)

@@ -84,26 +84,20 @@ pub fn rival_camera(parts: &Parts, weighed: &Weighed, others: &OtherCameras, pri
     let (test, residuals) =
         (ScoreTest::at(&stated.solution, search.tempering())?, &stated.solution.at.residuals);
     let of_stated = photographs.model(hypothesis, prior.broad())?;
-    let mut hopeful: Vec<_> = others
-        .cameras()
-        .iter()
-        .filter_map(|camera| {
-            let parts = parts.taken_by(&camera.sensitivities);
-            let (start, change) = {
-                let family = photographs.in_light_of(&parts);
-                let model = family.model(hypothesis, prior.broad())?;
-                let start = model.carried(&of_stated, &stated.solution.w);
-                let change = residuals - model.residuals(&start);
-                (start, change)
-            };
-            let ln_gain = test.ln_gain_by(1.0, &change);
-            (ln_gain > LN_HOPEFUL + ln_by_emission).then_some((ln_gain, camera, parts, start))
-        })
-        .collect();
-    hopeful.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
+    let (first, w) = (of_stated.first(), &stated.solution.w);
+    let here = first.model.evaluate(&first.own(w)).ingredients;
+    let hopeful = others.cameras().iter().filter_map(|camera| {
+        let taken = parts.taken_exactly_by(&camera.sensitivities);
+        let ln_gain = test.ln_gain_by(1.0, &(residuals - first.model.residuals_by(&taken, &here)));
+        (ln_gain > LN_HOPEFUL + ln_by_emission).then_some((ln_gain, camera))
+    });
+    let mut hopeful: Vec<_> = hopeful.collect();
+    hopeful.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let least = stated.ln_weight() + ln_by_emission + LN_AHEAD;
-    let by_classes = hopeful.into_iter().take(SEARCHED).filter_map(|(_, camera, parts, start)| {
+    let by_classes = hopeful.into_iter().take(SEARCHED).filter_map(|(_, camera)| {
+        let parts = parts.taken_by(&camera.sensitivities);
         let family = photographs.in_light_of(&parts);
+        let start = family.model(hypothesis, prior.broad())?.carried(&of_stated, w);
         let mut search = Search::new(&family, prior);
         let tried = search.sort((hypothesis, 0.0), Some(start), least)?;
         (tried.ln_weight() > least).then_some(())?;

@@ -30,14 +30,15 @@ pub struct Eye {
 }
 
 impl Eye {
-    /// A camera with other sensitivities, one number per waveband for each channel, in the same light.
+    /// A camera with other sensitivities, one number per waveband for each channel, and these errors of them, in
+    /// the same light.
     #[must_use]
-    pub fn with(&self, sensitivities: &[Vec<f64>], priors: &Priors) -> Self {
+    pub fn with(&self, sensitivities: &[Vec<f64>], errors: Vec<(usize, DVector<f64>)>) -> Self {
         let weighted = DMatrix::from_fn(self.widths_nm.len(), sensitivities.len(), |band, channel| {
             sensitivities[channel][band] * self.widths_nm[band]
         });
         Self {
-            errors: errors(sensitivities, &self.wavelengths_nm, &self.widths_nm, priors),
+            errors,
             is_stand_in: false,
             reference: weighted.tr_mul(&self.sun).imax(),
             sensitivities: weighted,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::conditions::{Conditions, Daylight, StatedScene};
-use super::eye::Eye;
+use super::eye::{Eye, errors};
 pub use super::sheets::Radiance;
 use super::sheets::Sheets;
 use crate::solve::dense::add;
@@ -166,10 +166,19 @@ impl Parts {
         lit
     }
 
-    /// The same, taken by a camera with these sensitivities: one number per waveband for each channel.
+    /// The same, taken by a camera with these sensitivities, one number per waveband for each channel, and
+    /// errors of them.
     #[must_use]
     pub fn taken_by(&self, sensitivities: &[Vec<f64>]) -> Self {
-        Self { eye: self.eye.with(sensitivities, self.stated.priors), ..self.clone() }
+        let Self { eye, stated, .. } = self;
+        let errors = errors(sensitivities, &eye.wavelengths_nm, &eye.widths_nm, stated.priors);
+        Self { eye: eye.with(sensitivities, errors), ..self.clone() }
+    }
+
+    /// The same, taken by a camera with exactly these sensitivities.
+    #[must_use]
+    pub fn taken_exactly_by(&self, sensitivities: &[Vec<f64>]) -> Self {
+        Self { eye: self.eye.with(sensitivities, Vec::new()), ..self.clone() }
     }
 
     /// The same in unstated daylight.

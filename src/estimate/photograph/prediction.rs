@@ -116,6 +116,16 @@ impl<'a> Predictor<'a, '_> {
         }
     }
 
+    /// Values of the facets in the light of `here`, under the same conditions, as this camera sees them.
+    pub fn seen(&self, here: &Predicted) -> DMatrix<f64> {
+        let lighting = Lighting::new(self.parts, &here.conditions);
+        let mut radiances = DMatrix::zeros(here.radiances.nrows(), self.sensitivities.ncols());
+        for (light, power) in here.lights.iter().zip(self.powers(&lighting, &here.conditions)) {
+            add_product(&mut radiances, &light.radiance, &self.to_channels(&self.weights(&power)));
+        }
+        Lens::new(self.parts, &here.conditions, &lighting).seen(radiances)
+    }
+
     /// Light of the sky and of the ground on the facets, for an amount of 1; `None` if it is no daylight.
     fn surroundings<'l>(&self, conditions: &Conditions) -> Option<[Cow<'l, Radiance>; 2]> {
         let Parts { stated, surroundings, .. } = self.parts;
