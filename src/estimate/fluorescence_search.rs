@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::data::FacetData;
 use super::doubt::EXPLAINED;
-use super::emission::{Emission, Origin};
+use super::emission::{Emission, Origin, SIZES};
 use super::facets::{Facets, Second};
 use super::fluorescence::Fluorescence;
 use super::prior::Prior;
@@ -40,14 +40,24 @@ pub fn is_hopeful(
     test.ln_gain_among(changes) + emission.ln_share(logit) > LN_ODDS_LEAST
 }
 
-/// Indices of the emissions, the first of which is none, that a sheet may have; `plain` is its mode under all
-/// spectra without emission.
+/// The standard normal number of the size that is nearest to a mode without emission, given the residuals there
+/// and their changes: the usual size is far from the mode of a sheet that hardly emits.
+pub fn nearest_size(residuals: &DVector<f64>, changes: &[(f64, DVector<f64>)], tempering: f64) -> f64 {
+    let off = |((_, number), (_, change)): &((f64, f64), &(f64, DVector<f64>))| {
+        (residuals - change).norm_squared() / (tempering * tempering) + number * number
+    };
+    let nearest = iter::zip(SIZES, changes).min_by(|a, b| off(a).total_cmp(&off(b)));
+    nearest.map_or(0.0, |((_, number), _)| number)
+}
+
+/// Indices of the emissions, the first of which is none, that a sheet may have, each with the number of its
+/// [nearest size](nearest_size); `plain` is its mode under all spectra without emission.
 pub fn possible<H>(
     data: &FacetData,
     emissions: &[Emission],
     plain: &Sorted<H, Second>,
     prior: &Prior,
-) -> Vec<usize> {
+) -> Vec<(usize, f64)> {
     let tempering = Search::new(data, prior).tempering();
     let [_, bands @ ..] = emissions else { return Vec::new() };
     let Some(test) = ScoreTest::at(&plain.solution, tempering) else { return Vec::new() };
@@ -62,7 +72,8 @@ pub fn possible<H>(
         emission.is_excited() && !is_absorbed && may_be()
     };
     let possible = iter::zip(bands, &changes).enumerate().filter(|(_, one)| is_possible(*one));
-    possible.map(|(n, _)| n + 1).collect()
+    let residuals = &plain.solution.at.residuals;
+    possible.map(|(n, (_, changes))| (n + 1, nearest_size(residuals, changes, tempering))).collect()
 }
 
 /// True if the facets are so far from a sheet without emission that it is no start for others.

@@ -7,7 +7,7 @@
 //! of the sheet that the facets leave possible. The curvature gives error bars (Laplace approximation), which
 //! widen where modes disagree or facets are further from the model than their noise.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::iter;
 
 use nalgebra::DVector;
@@ -150,7 +150,7 @@ impl<'a> Sheet<'_, 'a> {
         let (mut all, more) = lights_in_order((self.lights, &every), &lit, self.prior, start);
         trace.extend(more);
         let [nothing, ..] = self.data.scene().emissions() else { return all };
-        let possible = if may_emit { self.possible(&all) } else { BTreeSet::new() };
+        let possible = if may_emit { self.possible(&all) } else { BTreeMap::new() };
         if possible.is_empty() {
             return all;
         }
@@ -163,12 +163,16 @@ impl<'a> Sheet<'_, 'a> {
         for Lit { light, data, .. } in &mut all {
             *data = emitting(data.clone(), nothing, *light);
         }
-        for emission in possible.into_iter().map(|band| &self.data.scene().emissions()[band]) {
+        for (band, size) in possible {
+            let emission = &self.data.scene().emissions()[band];
             let excited = every.iter().copied().filter(|n| self.in_light(emission, *n).is_excited());
             let lit = |light: usize| emitting(in_light(light), emission, light);
             let lit = Alternatives::of(every.iter().map(|light| move || lit(*light)));
-            let start =
-                plain.as_ref().map(|w| w.clone().resize_vertically(w.len() + emission.unknowns(), 0.0));
+            let start = plain.as_ref().map(|w| {
+                let mut start = w.clone().resize_vertically(w.len() + emission.unknowns(), 0.0);
+                start[w.len()] = size;
+                start
+            });
             let excited: Vec<usize> = excited.collect();
             let start = (start, most(&all));
             // most sheets show no sign of emission: searches for it are no part of the trace
@@ -182,8 +186,9 @@ impl<'a> Sheet<'_, 'a> {
         all
     }
 
-    /// Indices of the emissions that the most probable lights leave possible.
-    fn possible(&self, all: &[Lit<'a>]) -> BTreeSet<usize> {
+    /// Indices of the emissions that the most probable lights leave possible, each with its nearest size in
+    /// the first of these.
+    fn possible(&self, all: &[Lit<'a>]) -> BTreeMap<usize, f64> {
         // the most probable one, and others unlike it
         let is_between = |light: usize| self.lights.get(light).is_some_and(|light| light.is_between);
         let is_tested = |(n, one): &(usize, &Lit)| *n == 0 || !is_between(one.light);
@@ -191,7 +196,9 @@ impl<'a> Sheet<'_, 'a> {
             let emissions = self.data.scene().emissions().iter().map(|one| self.in_light(one, *light));
             possible(data, &emissions.collect::<Vec<_>>(), sorted, self.prior)
         };
-        all.iter().enumerate().filter(is_tested).take(TESTED).flat_map(of).collect()
+        // of several lights, the first one's counts
+        let tested: Vec<_> = all.iter().enumerate().filter(is_tested).take(TESTED).flat_map(of).collect();
+        tested.into_iter().rev().collect()
     }
 
     fn in_light(&self, emission: &Emission, light: usize) -> Emission {

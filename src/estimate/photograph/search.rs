@@ -18,7 +18,7 @@ use crate::error::{Error, Result};
 use crate::estimate::emission::{Origin, SIZES};
 use crate::estimate::family::Family;
 use crate::estimate::fluorescence::Fluorescence;
-use crate::estimate::fluorescence_search::{self, is_hopeful};
+use crate::estimate::fluorescence_search::{self, is_hopeful, nearest_size};
 use crate::estimate::mixture::Mixture;
 use crate::estimate::prior::Prior;
 use crate::estimate::search::Search;
@@ -191,12 +191,7 @@ fn add_emitting(search: &mut Search<Photographs>, all: &mut Vec<Tried>) -> Optio
         });
         drop(model);
         if is_hopeful(&test, &changes, emission, &logit) {
-            // the usual size is far from the mode of a sheet that hardly emits
-            let off = |((_, number), (_, change)): &((f64, f64), &(f64, DVector<f64>))| {
-                (&residuals - change).norm_squared() + number * number
-            };
-            let nearest = iter::zip(SIZES, &changes).min_by(|a, b| off(a).total_cmp(&off(b)));
-            start[size] = nearest.map_or(0.0, |((_, number), _)| number);
+            start[size] = nearest_size(&residuals, &changes, search.tempering());
             let tried = search.sort((hypothesis, ln_share), Some(start), ln_best + LN_EVIDENCE_HOPELESS);
             ln_gains.extend(tried.iter().map(|one| one.ln_weight() - ln_best + emission.ln_share(&logit)));
             found.extend(tried);
