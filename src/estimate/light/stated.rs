@@ -48,8 +48,7 @@ impl Others {
     /// Empty if the built-in lights do not cover the wavelengths.
     pub fn lights(&self) -> &[Candidate] {
         self.lights.get_or_init(|| {
-            let all =
-                candidate_lights().and_then(|all| Candidate::all(all, &self.grid, &self.sensitivities));
+            let all = candidate_lights().and_then(|all| Candidate::all(all, &self.grid, &self.sensitivities));
             all.unwrap_or_default()
         })
     }

@@ -246,7 +246,11 @@ impl<'a> PhotographModel<'a> {
     /// Residuals at the point of these ingredients if another camera took the photograph, whose parts are
     /// otherwise the same.
     #[must_use]
-    pub fn residuals_by(&self, camera: &Parts, Ingredients { terms, facets, .. }: &Ingredients) -> DVector<f64> {
+    pub fn residuals_by(
+        &self,
+        camera: &Parts,
+        Ingredients { terms, facets, .. }: &Ingredients,
+    ) -> DVector<f64> {
         let predictor = Predictor { parts: camera, terms, sensitivities: &camera.eye.sensitivities };
         let left = &self.parts.values - predictor.seen(facets);
         self.whitening.of(&DVector::from_column_slice(left.as_slice()))
