@@ -33,8 +33,8 @@ macro_rules! priors {
 }
 
 priors! {
-    /// Standard deviation of a measured angle, degrees: a protractor, and a sheet that springs back. A stated
-    /// standard deviation takes precedence.
+    /// Standard deviation of a measured angle, degrees: a protractor, and a sheet that springs back; with its
+    /// tails, that of `train`. A stated standard deviation takes precedence.
     angle_sd_deg: 0.8,
     /// Standard deviation of the tilt of a sheet that was turned to the sun with care, degrees.
     tilt_sd_deg: 2.0,
@@ -50,7 +50,8 @@ priors! {
     /// ISO 12232 lets makers state several kinds of sensitivity, and apertures and lenses deviate from their
     /// nominal values.
     exposure_metered_sd: 0.3,
-    /// Heaviness of the tails for stated values, which now and then are blunders; 0: normal.
+    /// Heaviness of the tails for stated values, which now and then are blunders; 0: normal. 5° off in the
+    /// angle are three standard deviations.
     stated_tail: 0.75,
 
     /// Reciprocal colour temperature of direct sunlight, 1e-6/K, whatever CIE daylight was stated: 4900 K to
