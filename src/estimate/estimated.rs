@@ -34,6 +34,9 @@ pub struct Estimate {
     /// Share of the light that the estimate leaves unexplained, within what a reflectance can do to the
     /// facets.
     pub unexplained: f64,
+    /// Distance of computed facets from what spectra like the estimate let expect, in standard deviations
+    /// beyond chance, as far as it was computed.
+    pub surprise: f64,
     /// The kind of day on which the photograph was taken, if that was inferred.
     pub day: Option<photograph::day::DayEstimate>,
     /// Emission of the sheet, if it probably has any.
@@ -75,6 +78,7 @@ impl Estimate {
             skipped: Vec::new(),
             residual_rms,
             unexplained,
+            surprise: 0.0,
             day: None,
             fluorescence: None,
             light: None,

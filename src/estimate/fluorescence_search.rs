@@ -40,8 +40,8 @@ pub fn is_hopeful(
     test.ln_gain_among(changes) + emission.ln_share(logit) > LN_ODDS_LEAST
 }
 
-/// The standard normal number of the size that is nearest to a mode without emission, given the residuals there
-/// and their changes: the usual size is far from the mode of a sheet that hardly emits.
+/// The standard normal number of the size that is nearest to a mode without emission, given the residuals
+/// there and their changes: the usual size is far from the mode of a sheet that hardly emits.
 pub fn nearest_size(residuals: &DVector<f64>, changes: &[(f64, DVector<f64>)], tempering: f64) -> f64 {
     let off = |((_, number), (_, change)): &((f64, f64), &(f64, DVector<f64>))| {
         (residuals - change).norm_squared() / (tempering * tempering) + number * number

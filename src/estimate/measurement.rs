@@ -22,7 +22,8 @@ use super::shadow::Shadow;
 use super::taking::{Stated, doubts_of_taking};
 use super::unknowns::{SceneModel, Unknown};
 use super::verdict::{
-    Doubt, EXPLAINED, Verdict, beyond_chance, ignored_findings, unusual_exposure, unusual_findings,
+    Doubt, EXPLAINED, Verdict, beyond_chance, ignored_findings, improbable, unusual_exposure,
+    unusual_findings,
 };
 use super::{Estimate, Exposure, map};
 use crate::error::{Error, Result};
@@ -190,7 +191,8 @@ impl Inference {
         let others = self.other_lights.as_deref().filter(|_| self.lights.is_empty());
         let (estimate, rival) = map::estimate_in((data, &self.lights), prior, start, others)?;
         let doubts = self.doubt_of_known().or_else(|| self.doubt_of_light(rival)).into_iter();
-        let doubts = doubts.chain(beyond_chance(&estimate, data.size().1)).collect();
+        let of_facets = beyond_chance(&estimate, data.size().1).or_else(|| improbable(&estimate));
+        let doubts = doubts.chain(of_facets).collect();
         Ok(self.judged(facets, estimate, doubts))
     }
 

@@ -116,6 +116,7 @@ impl<'a> Searched<'a> {
             spread: off.spread.as_ref().map(|all| all.columns(0, bands).into_owned()),
             findings: (self.seen_by_another > 0.5).then(Finding::of_another_camera).into_iter().collect(),
             fluorescence: self.fluorescence(last + 1),
+            surprise: found.best.surprise,
             ..Estimate::searched(reflectance, exposure, left, (trace, found.best.termination))
         }
     }

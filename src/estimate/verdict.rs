@@ -20,7 +20,7 @@ const OPEN: f64 = 0.06;
 /// Probabilities of no bounces above which an estimate is doubtful, and wrong.
 const PROBABLY_NO_FOLD: f64 = 0.5;
 const NO_FOLD: f64 = 0.9;
-/// Standard deviations of the sum of squared residuals above which chance does not explain it.
+/// Standard deviations of a sum of squares above which chance does not explain it.
 const CHANCE: f64 = 5.0;
 /// An exposure is doubtful if it is brighter than nineteen in twenty (in standard deviations of usual
 /// exposures), and wrong if it is this much brighter or darker. Too dark an exposure only means noise, but
@@ -212,6 +212,14 @@ pub fn beyond_chance(estimate: &Estimate, values: usize) -> Option<Doubt> {
     let off = (estimate.residual_rms.powi(2) - 1.0) * (values as f64 / 2.0).sqrt();
     (off > CHANCE)
         .then(|| Doubt::new(format!("the residual is larger than noise explains ({off:.0} sigma)"), CHECK))
+}
+
+/// Computed facets that no probable spectrum explains: through another camera, or in another light, they
+/// often ask for an improbable one.
+#[must_use]
+pub fn improbable(estimate: &Estimate) -> Option<Doubt> {
+    let because = "no probable spectrum explains the facets: light, camera or fold may not be as stated";
+    (estimate.surprise > CHANCE).then(|| Doubt::new(because, CHECK))
 }
 
 #[cfg(test)]

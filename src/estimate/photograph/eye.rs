@@ -30,8 +30,8 @@ pub struct Eye {
 }
 
 impl Eye {
-    /// A camera with other sensitivities, one number per waveband for each channel, and these errors of them, in
-    /// the same light.
+    /// A camera with other sensitivities, one number per waveband for each channel, and these errors of them,
+    /// in the same light.
     #[must_use]
     pub fn with(&self, sensitivities: &[Vec<f64>], errors: Vec<(usize, DVector<f64>)>) -> Self {
         let weighted = DMatrix::from_fn(self.widths_nm.len(), sensitivities.len(), |band, channel| {
@@ -58,12 +58,12 @@ impl Eye {
 /// a sheet, which varies less over the wavelengths, hardly shows it.
 const COMPONENTS: usize = 4;
 
-/// Smooth errors of the sensitivities, independent of each other, the largest of each channel first. A channel
-/// with fewer than ten samples that see anything belongs to a narrow filter and is assumed exact.
+/// Smooth errors of the sensitivities, independent of each other, the largest of each channel first. A
+/// channel with fewer than ten samples that see anything belongs to a narrow filter and is assumed exact.
 ///
 /// # Source
-/// Principal components of errors that are alike over a range of wavelengths: Bishop, *Pattern Recognition and
-/// Machine Learning* (2006), section 12.1.4.
+/// Principal components of errors that are alike over a range of wavelengths: Bishop, *Pattern Recognition
+/// and Machine Learning* (2006), section 12.1.4.
 #[must_use]
 pub fn errors(
     sensitivities: &[Vec<f64>],
