@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::error::{Error, Result};
 use crate::estimate::photograph::priors::Priors;
+use crate::estimate::unknowns::{Expectation, Normal, Scale};
 use crate::geometry::{Fold, Panel, joints};
 use crate::image::{
     FacetMeasurement, Grid, Homography, Lens, Marked, PANEL_CORNERS, Point, StatedFold, camera_position,
@@ -11,12 +12,16 @@ use crate::image::{
 use crate::surfaces::Sight;
 
 /// The stated fold, for comparison with marked corners. The standard deviation of its angle, degrees,
-/// defaults to that of a usual measurement.
+/// defaults to that of usual measurements, blunders among them.
 #[must_use]
 pub fn stated_fold(fold: &Fold, angle_sd_deg: Option<f64>) -> StatedFold {
+    let usual = || {
+        let Priors { angle_sd_deg: sd, stated_tail, .. } = Priors::USUAL;
+        Expectation::from(Normal { mean: 0.0, sd }).with_tail(stated_tail).spread(Scale::Linear, 0.0, 1.0)
+    };
     StatedFold {
         angle_deg: fold.angle_deg(),
-        angle_sd_deg: angle_sd_deg.unwrap_or(Priors::USUAL.angle_sd_deg),
+        angle_sd_deg: angle_sd_deg.unwrap_or_else(usual),
         depths: fold.depths().map(|depth| depth / fold.width()),
     }
 }
