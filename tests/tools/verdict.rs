@@ -91,7 +91,8 @@ fn a_wrong_angle_is_found_out() {
         let one = judged(&format!("{angle_deg}° for 50°"), StatedScene { angle_deg, ..AS_IT_IS });
         assert!(one.rmse < 0.015 && one.within_two_sd > 0.9, "{angle_deg}: {one:?}");
         let off = f64::abs(angle_deg - 50.0);
-        assert_eq!(one.level, if off > 4.0 { "doubtful" } else { "good" }, "{angle_deg}: {one:?}");
+        // 2.8° are more than in 39 of 40 photographs
+        assert_eq!(one.level, if off > 2.8 { "doubtful" } else { "good" }, "{angle_deg}: {one:?}");
         let is_said = [&one.said, &one.because].into_iter().any(|text| {
             // between folds that are 4° apart one is known to a twentieth of a degree
             ["49.9", "50.0", "50.1"]
