@@ -46,6 +46,19 @@ impl Eye {
         }
     }
 
+    /// Sizes of its errors at which they are as nearly as possible those of another camera, of these sizes:
+    /// errors of one channel are orthogonal.
+    pub fn sizes_of(&self, other: &Self, sizes: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut all = DMatrix::zeros(other.sensitivities.nrows(), other.sensitivities.ncols());
+        for ((channel, error), size) in other.errors.iter().zip(sizes) {
+            all.column_mut(*channel).axpy(size, error, 1.0);
+        }
+        let size = |(channel, error): &(usize, DVector<f64>)| {
+            error.dot(&all.column(*channel)) / error.norm_squared().max(f64::MIN_POSITIVE)
+        };
+        self.errors.iter().map(size).collect()
+    }
+
     /// True if it is the same camera, judging by its sensitivities.
     #[must_use]
     pub fn is(&self, other: &Self) -> bool {
@@ -113,4 +126,36 @@ pub fn shares_of(
     };
     let of_unit_width = vec![1.0; wavelengths_nm.len()];
     errors(sensitivities, wavelengths_nm, &of_unit_width, priors).into_iter().map(share).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::iter;
+
+    use super::*;
+
+    #[test]
+    fn errors_of_one_camera_are_its_own() {
+        let wavelengths_nm: Vec<f64> = (0..31).map(|n| 400.0 + 10.0 * f64::from(n)).collect();
+        let curve =
+            |middle: f64| wavelengths_nm.iter().map(move |nm| (-((nm - middle) / 50.0).powi(2)).exp());
+        let sensitivities = [600.0, 540.0, 460.0].map(|middle| curve(middle).collect::<Vec<_>>());
+        let (widths_nm, white) = (vec![10.0; 31], DVector::from_element(31, 1.0));
+        let errors = errors(&sensitivities, &wavelengths_nm, &widths_nm, &Priors::USUAL);
+        assert_eq!(errors.len(), 3 * COMPONENTS);
+        let camera = Eye {
+            wavelengths_nm: wavelengths_nm.clone(),
+            widths_nm,
+            sensitivities: DMatrix::zeros(31, 3),
+            errors,
+            is_stand_in: false,
+            sun: white.clone(),
+            sky: white,
+            daylight: DMatrix::zeros(31, 3),
+            reference: 0,
+        };
+        let sizes: Vec<f64> = (0..3 * COMPONENTS).map(|n| (n as f64).sin()).collect();
+        let same = camera.sizes_of(&camera, sizes.iter().copied());
+        assert!(iter::zip(&sizes, &same).all(|(size, same)| (size - same).abs() < 1e-9), "{same:?}");
+    }
 }

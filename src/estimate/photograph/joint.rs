@@ -95,7 +95,8 @@ impl<'a> JointModel<'a> {
     }
 
     /// Transfers the point `w` of another model of the same photographs, as far as this one has the same
-    /// numbers; the others, also those of another camera, are at their means.
+    /// numbers; the others are at their means. Of another camera, errors of the sensitivities are as nearly
+    /// the same as its own can be.
     #[must_use]
     pub fn carried(&self, other: &JointModel, w: &DVector<f64>) -> DVector<f64> {
         let mut carried = DVector::zeros(self.count);
@@ -107,6 +108,12 @@ impl<'a> JointModel<'a> {
                 if let Some(own) = member.place_like(&from.model, n) {
                     carried[own] = w[*place];
                 }
+            }
+            if !is_same_camera {
+                let [_, _, first, ..] = member.model.layout();
+                let sizes = from.places[camera..emission].iter().map(|place| w[*place]);
+                let sizes = member.model.parts.eye.sizes_of(&from.model.parts.eye, sizes);
+                member.places[first..].iter().zip(sizes).for_each(|(place, size)| carried[*place] = size);
             }
         }
         carried

@@ -244,14 +244,15 @@ impl<'a> PhotographModel<'a> {
     }
 
     /// Residuals at the point of these ingredients if another camera took the photograph, whose parts are
-    /// otherwise the same.
+    /// otherwise the same, with the same errors of its sensitivities.
     #[must_use]
     pub fn residuals_by(
         &self,
         camera: &Parts,
-        Ingredients { terms, facets, .. }: &Ingredients,
+        Ingredients { terms, facets, sensitivities, .. }: &Ingredients,
     ) -> DVector<f64> {
-        let predictor = Predictor { parts: camera, terms, sensitivities: &camera.eye.sensitivities };
+        let sensitivities = &camera.eye.sensitivities + (sensitivities - &self.parts.eye.sensitivities);
+        let predictor = Predictor { parts: camera, terms, sensitivities: &sensitivities };
         let left = &self.parts.values - predictor.seen(facets);
         self.whitening.of(&DVector::from_column_slice(left.as_slice()))
     }
