@@ -98,8 +98,8 @@ fn photographs_give_their_spectra() {
         }
         // one bound for all: a wrong angle that is fitted should cost little more than the unknown light does
         assert!(m.turned[0] < 0.04 && m.turned[1] < 1.8, "{}: {:?}", m.name, m.turned);
-        // 2° are more than two standard deviations of a measured angle: with noise, what is told draws what is
-        // found by a fifth of that; the rounding of a JPEG looks like another angle
+        // 2° are more than two standard deviations of a measured angle: with noise, what is told draws what
+        // is found by a fifth of that; the rounding of a JPEG looks like another angle
         assert!(m.angle_error_deg < 0.42 || bounds.picture == "f", "{}: {}°", m.name, m.angle_error_deg);
     }
 }
